@@ -1,0 +1,41 @@
+// An image as the sweep reads it: one more column and row than the photograph, so that interpolation at the last pixel
+// may read its right and lower neighbors.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/image/image.h"
+
+namespace quorum {
+
+/// width × height pixels, stored with stride = width + 1 and height + 1 rows; the last column and row repeat.
+struct PaddedImage {
+  int width = 0;
+  int height = 0;
+  std::vector<Rgba> pixels;
+
+  [[nodiscard]] int stride() const { return width + 1; }
+  [[nodiscard]] Rgba at(int x, int y) const {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(stride()) + static_cast<std::size_t>(x)];
+  }
+};
+
+PaddedImage pad_image(const ColorImage& image);
+
+/// One interpolated sample, centered: 12 bits a channel (11 for windows above kLargestFullPrecisionWindow).
+struct Sample {
+  std::int32_t red = 0;
+  std::int32_t green = 0;
+  std::int32_t blue = 0;
+};
+
+/// Bits that a sample drops beyond kSampleShift so that the sums of a window fit 32 bits. window: 3 to 15 pixels.
+int extra_sample_shift(int window);
+
+/// Bilinear interpolation in integers at (u, v), in 1/256 pixel, 0 <= u <= 256 (width - 1), v likewise.
+/// Twin: sample_bilinear in shaders/lib/sample_bilinear.glsl.
+Sample sample_bilinear(const PaddedImage& image, int u, int v, int extra_shift);
+
+}  // namespace quorum
