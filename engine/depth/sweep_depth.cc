@@ -1,0 +1,156 @@
+#include "engine/depth/sweep_depth.h"
+
+#include <oneapi/tbb/blocked_range2d.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "engine/core/check.h"
+#include "engine/depth/plane_warp.h"
+#include "engine/depth/refine_depth.h"
+#include "engine/depth/sweep_tile.h"
+#include "engine/depth/vote_depth.h"
+#include "engine/depth/window_ncc.h"
+
+namespace quorum {
+namespace {
+
+void add_sample(WindowSums& sums, const Sample& a, const Sample& b) {
+  sums.a[0] += a.red, sums.a[1] += a.green, sums.a[2] += a.blue;
+  sums.b[0] += b.red, sums.b[1] += b.green, sums.b[2] += b.blue;
+  sums.aa += a.red * a.red + a.green * a.green + a.blue * a.blue;
+  sums.bb += b.red * b.red + b.green * b.green + b.blue * b.blue;
+  sums.ab += a.red * b.red + a.green * b.green + a.blue * b.blue;
+}
+
+/// Planes of a pass that a tile tests, each with the part of the tile where some pixel does.
+struct TilePlanes {
+  std::vector<TilePlane> planes;
+
+  void collect(const Grid<PlaneRange>& ranges, const Tile& tile, int stride) {
+    uint first = ~0U;
+    uint last = 0;
+    for_each_range(ranges, tile, [&](int, int, const PlaneRange& range) {
+      first = std::min(first, range.first);
+      last = std::max(last, range.last);
+    });
+    planes.clear();
+    if (first > last) return;
+    const uint step = static_cast<uint>(stride);
+    for (uint plane = first; plane <= last; plane += step)
+      planes.push_back({static_cast<int>(plane), tile.x_end, tile.y_end, tile.x, tile.y});
+    for_each_range(ranges, tile, [&](int x, int y, const PlaneRange& range) {
+      for (uint plane = first + (range.first - first + step - 1) / step * step; plane <= range.last; plane += step) {
+        TilePlane& part = planes[(plane - first) / step];
+        part.x = std::min(part.x, x);
+        part.y = std::min(part.y, y);
+        part.x_end = std::max(part.x_end, x + 1);
+        part.y_end = std::max(part.y_end, y + 1);
+      }
+    });
+    std::erase_if(planes, [](const TilePlane& part) { return part.x >= part.x_end; });
+  }
+
+ private:
+  template <typename Visit>
+  static void for_each_range(const Grid<PlaneRange>& ranges, const Tile& tile, Visit visit) {
+    for (int y = tile.y; y < tile.y_end; ++y)
+      for (int x = tile.x; x < tile.x_end; ++x)
+        if (const PlaneRange& range = ranges.at(x, y); range.first <= range.last) visit(x, y, range);
+  }
+};
+
+/// The votes of a tile window by window, for the axis model, whose windows share no samples.
+void sweep_tile_window_by_window(const SweepTask& task, const Grid<PlaneRange>& ranges,
+                                 const std::vector<TilePlane>& planes, const VoteRule& rule, Grid<PixelVote>& votes) {
+  for (const TilePlane& part : planes) {
+    for (int y = part.y; y < part.y_end; ++y) {
+      for (int x = part.x; x < part.x_end; ++x) {
+        const PlaneRange& range = ranges.at(x, y);
+        if (static_cast<uint>(part.plane) < range.first || static_cast<uint>(part.plane) > range.last) continue;
+        float sum = 0.0F;
+        int count = 0;
+        for (int neighbor = 0; neighbor < task.neighbor_count(); ++neighbor) {
+          const float ncc = window_ncc(task, neighbor, x, y, part.plane);
+          if (ncc > rule.threshold) {
+            sum += ncc;
+            ++count;
+          }
+        }
+        votes.at(x, y) = vote(votes.at(x, y), sum, count, part.plane, rule);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane) {
+  const PaddedImage& image = *task.neighbors[static_cast<std::size_t>(neighbor)];
+  const PlaneWarp& warp = task.warps[static_cast<std::size_t>(neighbor)];
+  const float inverse_depth = task.planes.inverse_depth[static_cast<std::size_t>(plane)];
+  const int radius = task.options.window / 2;
+  const int shift = extra_sample_shift(task.options.window);
+  const bool axis = task.options.window_model == WindowModel::kAxis;
+  const Projection center = project(warp, x, y, inverse_depth, image.width, image.height);
+
+  const auto position = [&](int dx, int dy) {
+    if (!axis) return project(warp, x + dx, y + dy, inverse_depth, image.width, image.height);
+    const int u = center.u + dx * kPositionScale;
+    const int v = center.v + dy * kPositionScale;
+    const bool inside = center.inside && u >= 0 && v >= 0 && u <= (image.width - 1) * kPositionScale &&
+                        v <= (image.height - 1) * kPositionScale;
+    return inside ? Projection{u, v, true} : Projection{};
+  };
+  // A plane maps the window to a convex quadrilateral, so the corners decide for all of it. A sample that rounding puts
+  // 1/256 pixel outside all the same is read at the image's first pixel, on every device.
+  for (const int dy : {-radius, radius})
+    for (const int dx : {-radius, radius})
+      if (!position(dx, dy).inside) return kNoNcc;
+
+  WindowSums sums;
+  for (int dy = -radius; dy <= radius; ++dy) {
+    for (int dx = -radius; dx <= radius; ++dx) {
+      const Projection at = position(dx, dy);
+      add_sample(sums, sample_bilinear(*task.reference, (x + dx) * kPositionScale, (y + dy) * kPositionScale, shift),
+                 sample_bilinear(image, at.u, at.v, shift));
+    }
+  }
+  return ncc_from_sums(sums, task.options.window * task.options.window);
+}
+
+Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& ranges, int stride,
+                             const CpuSweepOptions& cpu) {
+  QUORUM_CHECK_EQ(ranges.width, task.reference->width);
+  QUORUM_CHECK_LE(cpu.tile_width, kMaxTileSide);
+  QUORUM_CHECK_LE(cpu.tile_height, kMaxTileSide);
+  const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
+  Grid<PixelVote> votes(ranges.width, ranges.height, kNoVote);
+  const int columns = (ranges.width + cpu.tile_width - 1) / cpu.tile_width;
+  const int rows = (ranges.height + cpu.tile_height - 1) / cpu.tile_height;
+  tbb::parallel_for(tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1), [&](const auto& part) {
+    TilePlanes tile_planes;
+    for (int row = part.rows().begin(); row < part.rows().end(); ++row) {
+      for (int column = part.cols().begin(); column < part.cols().end(); ++column) {
+        const Tile tile{column * cpu.tile_width, row * cpu.tile_height,
+                        std::min((column + 1) * cpu.tile_width, ranges.width),
+                        std::min((row + 1) * cpu.tile_height, ranges.height)};
+        tile_planes.collect(ranges, tile, stride);
+        if (tile_planes.planes.empty()) continue;
+        if (task.options.window_model == WindowModel::kPlane)
+          sweep_tile(task, ranges, tile, tile_planes.planes, rule, cpu.simd, votes);
+        else
+          sweep_tile_window_by_window(task, ranges, tile_planes.planes, rule, votes);
+      }
+    }
+  });
+  return votes;
+}
+
+DepthMap sweep_depth(const SweepTask& task, const CpuSweepOptions& cpu) {
+  Grid<PixelVote> votes = sweep_planes(task, task.ranges, task.planes.refinement, cpu);
+  if (task.planes.refinement > 1) votes = sweep_planes(task, refine_ranges(votes, task.planes), 1, cpu);
+  return depth_map_from_votes(votes, task.planes);
+}
+
+}  // namespace quorum

@@ -1,0 +1,27 @@
+// Options of the depth stages, with the paper's values as defaults where it names them.
+#pragma once
+
+#include "engine/core/error.h"
+
+namespace quorum {
+
+/// What a window in the neighbor looks like.
+enum class WindowModel {
+  kPlane,  ///< follows the fronto-parallel plane at the tested depth; also right for rotated neighbors
+  kAxis,   ///< the paper's: as many pixels, axis-aligned, around the projection
+};
+
+struct SweepOptions {
+  int window = 5;            ///< side of the window, pixels, odd, 3..15 (paper 4.2)
+  float threshold = 0.6F;    ///< NCC above which a neighbor votes for a depth, 0..0.99 (paper 4.1)
+  int min_votes = 2;         ///< votes that make a depth valid, 1..32 (paper 2.1)
+  double depth_step = 0.0;   ///< distance of depth samples, scene units (the paper's 2.5 mm); 0 = automatic
+  double step_pixels = 0.5;  ///< automatic step: largest motion of the projection in a neighbor, pixels, 0.05..8
+  int refinement = 10;       ///< the second pass samples at 1 / refinement of the step; 1 = no second pass (paper 4.1)
+  WindowModel window_model = WindowModel::kPlane;
+
+  /// Names the first option that is out of its range, and the range. kUsage.
+  [[nodiscard]] Expected<void> check() const;
+};
+
+}  // namespace quorum

@@ -1,0 +1,27 @@
+// All that the sweep of one reference view needs, ready for any backend.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/depth/depth_planes.h"
+#include "engine/depth/sweep_options.h"
+#include "engine/image/padded_image.h"
+#include "shaders/layout.h"
+
+namespace quorum {
+
+/// neighbors and warps are of equal length, 2 or more, in the order of view selection (which fixes the order of float
+/// sums). ranges has the size of the reference image.
+struct SweepTask {
+  std::shared_ptr<const PaddedImage> reference;
+  std::vector<std::shared_ptr<const PaddedImage>> neighbors;
+  std::vector<PlaneWarp> warps;
+  DepthPlanes planes;
+  Grid<PlaneRange> ranges;
+  SweepOptions options;
+
+  [[nodiscard]] int neighbor_count() const { return static_cast<int>(neighbors.size()); }
+};
+
+}  // namespace quorum

@@ -1,0 +1,148 @@
+// Structs and constants that kernels (GLSL) and engine (C++) both read. Four-byte scalars and arrays of them alone, so
+// that both languages lay them out alike; matrices row by row; every struct with its size asserted.
+#ifndef QUORUM_SHADERS_LAYOUT_H
+#define QUORUM_SHADERS_LAYOUT_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#define QUORUM_SIZE(type, bytes) static_assert(sizeof(type) == (bytes))
+namespace quorum {
+using uint = std::uint32_t;
+#else
+#define QUORUM_SIZE(type, bytes)
+#endif
+
+// Image samples. A position is rounded to 1/256 pixel; a sample keeps 12 of the 24 bits that interpolation gives and is
+// centered, so that sums of products of 13x13 windows in three channels fit int: 3 * 169 * 2048^2 < 2^31.
+// Larger windows drop one more bit.
+const int kPositionScale = 256;
+const int kPositionBits = 8;
+const int kSampleShift = 12;
+const int kLargestFullPrecisionWindow = 13;
+
+// A neighbor that would see a point at less than this share of the reference depth does not see it.
+const float kMinDepthRatio = 0.0009765625f;  // 1/1024
+
+// Voxels.
+const int kBlockSide = 8;           // voxels along an edge of a block
+const int kBlockVoxels = 512;       // kBlockSide^3
+const int kDistanceScale = 2048;    // signed distance is kept in 1/2048 of the truncation
+const int kWeightScale = 255;       // weight 1 = a vertex of full confidence
+const int kMaxIntegratedViews = 4096;  // 2048 * 255 * 4096 < 2^31: the sums of a voxel can't overflow
+const int kVoxelWords = 5;          // of one voxel: weight, weighted distance, weighted red, green, blue
+
+// Bits of a cell of the range surface. A cell has the pixels 0 = (x, y), 1 = (x+1, y), 2 = (x, y+1), 3 = (x+1, y+1) and
+// up to two triangles: split along 1-2 they are 0-1-2 and 3-2-1, split along 0-3 they are 1-3-0 and 2-0-3.
+const uint kCellFirstTriangle = 1u;   // 0-1-2, or 1-3-0
+const uint kCellSecondTriangle = 2u;  // 3-2-1, or 2-0-3
+const uint kCellSplitAlong03 = 4u;
+
+// Where the pixels of a view land in a neighbor on the plane at inverse depth w:
+// (x', y', 1) ~ rotation * (x, y, 1) + offset * w.
+struct PlaneWarp {
+  float rotation[9];  // K' R' R^-1 K^-1
+  float offset[3];    // K' (t' - R' R^-1 t), pixels * scene units
+};
+QUORUM_SIZE(PlaneWarp, 48);
+
+// Planes of one reference pixel, both ends included; none if first > last.
+struct PlaneRange {
+  uint first;
+  uint last;
+};
+QUORUM_SIZE(PlaneRange, 8);
+
+// What the sweep knows of one reference pixel. plane: index of the best plane so far, -1 = none.
+struct PixelVote {
+  float correlation;
+  float confidence;
+  int plane;
+};
+QUORUM_SIZE(PixelVote, 12);
+
+// sweep_depth and refine_depth: NCC of each pixel against one neighbor on a batch of planes.
+struct SweepParams {
+  PlaneWarp warp;
+  int width;            // reference view, pixels
+  int height;           // reference view, pixels
+  int neighbor_width;   // pixels
+  int neighbor_height;  // pixels
+  int row_begin;        // first reference row of this batch
+  int row_count;        // rows of this batch
+  int first_plane;      // sweep_depth: plane of slot 0. refine_depth: plane of slot 0 relative to the pixel's range
+  int plane_stride;     // planes between slots
+  int plane_count;      // slots of this batch
+  int ncc_offset;       // where this neighbor's values start in the ncc buffer, floats
+};
+QUORUM_SIZE(SweepParams, 88);
+
+// vote_depth: from the NCC values of a batch to the best plane of each pixel so far.
+struct VoteParams {
+  int width;
+  int row_begin;
+  int row_count;
+  int first_plane;
+  int plane_stride;
+  int plane_count;
+  int neighbor_count;
+  int min_votes;
+  float threshold;
+  float confidence_scale;  // 1 / (neighbor count * (1 - threshold))
+  int relative_planes;     // 1: planes count from the start of the pixel's range (after refine_depth)
+};
+QUORUM_SIZE(VoteParams, 44);
+
+// range_surface: the triangles of one depth map.
+struct RangeSurfaceParams {
+  int width;
+  int height;
+  float max_step;  // largest depth difference between pixels one apart, as a share of the nearer depth
+};
+QUORUM_SIZE(RangeSurfaceParams, 12);
+
+// weigh_surface: the weights of its vertices.
+struct WeighSurfaceParams {
+  int width;
+  int height;
+  float focal_x;  // pixels
+  float focal_y;  // pixels
+  float principal_x;
+  float principal_y;
+  float max_step;  // as in RangeSurfaceParams
+  int feather;     // pixels over which the weight rises from a border of the surface
+};
+QUORUM_SIZE(WeighSurfaceParams, 32);
+
+// collect_blocks: which voxel blocks lie within the truncation of a range surface. Points are in blocks of the grid.
+struct CollectParams {
+  float ray_from_pixel[9];  // direction of the ray of (x, y, 1) that reaches depth 1
+  float origin[3];          // the camera's center
+  int blocks[3];            // size of the grid
+  int width;
+  int height;
+  float depth_step;         // between points along a ray, scene units
+  int steps;                // points on each side of the surface
+  float margin;             // around each point, blocks
+};
+QUORUM_SIZE(CollectParams, 80);
+
+// integrate: adds one range surface to the voxels of the listed blocks.
+struct IntegrateParams {
+  float projection[12];      // (x z, y z, z) of a voxel's center, pixels and depth, from its coordinates in the grid
+  float inverse_focal_x;     // 1 / pixels
+  float inverse_focal_y;
+  float principal_x;         // pixels
+  float principal_y;
+  float inverse_truncation;  // 1 / scene units
+  int width;
+  int height;
+  int list_begin;            // first entry of the block list for this dispatch
+  int blocks[2];             // size of the grid along x and y
+  int pool_begin;            // number of the first block in the bound part of the pool
+};
+QUORUM_SIZE(IntegrateParams, 92);
+
+#ifdef __cplusplus
+}  // namespace quorum
+#endif
+#endif

@@ -1,0 +1,111 @@
+#include "tests/support/sphere_scene.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "engine/core/check.h"
+#include "engine/depth/plane_warp.h"
+
+namespace quorum {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// A sum of waves in space, 0..1, a different one per channel.
+class Texture {
+ public:
+  explicit Texture(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (auto& channel : waves_)
+      for (auto& wave : channel) wave = {18.0 * Eigen::Vector3d(uniform(random), uniform(random), uniform(random)), 3.0 * uniform(random)};
+  }
+  [[nodiscard]] double value(std::size_t channel, const Eigen::Vector3d& point) const {
+    double sum = 0.0;
+    for (const auto& [frequency, phase] : waves_[channel]) sum += std::sin(frequency.dot(point) + phase);
+    return 0.5 + 0.09 * sum;
+  }
+
+ private:
+  std::array<std::array<std::pair<Eigen::Vector3d, double>, 8>, 3> waves_;
+};
+
+View make_view(int index, int views, int width, int height, bool upside_down) {
+  const double angle = 12.0 * kDegree * (index - (views - 1) / 2.0);
+  const Eigen::Vector3d center = 4.0 * Eigen::Vector3d(std::sin(angle), 0.15, -std::cos(angle)).normalized();
+  const Eigen::Vector3d forward = -center.normalized();
+  const Eigen::Vector3d right = Eigen::Vector3d(0, -1, 0).cross(forward).normalized() * (upside_down ? -1.0 : 1.0);
+  const Eigen::Vector3d down = forward.cross(right);
+  View view;
+  view.name = fmt::format("sphere{:02}", index);
+  view.width = width;
+  view.height = height;
+  view.camera.camera_from_world << right.transpose(), down.transpose(), forward.transpose();
+  view.camera.translation = -view.camera.camera_from_world * center;
+  view.camera.intrinsics << 1.4 * width, 0, (width - 1) / 2.0, 0, 1.41 * width, (height - 1) / 2.0, 0, 0, 1;
+  return view;
+}
+
+}  // namespace
+
+double sphere_depth(const View& view, double x, double y) {
+  const Eigen::Vector3d origin = view.camera.center();
+  const Eigen::Vector3d ray = view.camera.unproject(x, y, 1.0) - origin;
+  const double a = ray.squaredNorm();
+  const double b = origin.dot(ray);
+  const double discriminant = b * b - a * (origin.squaredNorm() - kSphereRadius * kSphereRadius);
+  return discriminant <= 0 ? 0.0 : (-b - std::sqrt(discriminant)) / a;
+}
+
+SphereScene make_sphere_scene(int views, int width, int height, bool flip, unsigned seed) {
+  const Texture texture(seed);
+  SphereScene sphere;
+  sphere.scene.bounds = {{-1.05, -1.05, -1.05}, {1.05, 1.05, 1.05}};
+  for (int index = 0; index < views; ++index) {
+    const View view = make_view(index, views, width, height, flip && index % 2 == 1);
+    ColorImage image(width, height, make_rgb(0, 0, 0));
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const double depth = sphere_depth(view, x, y);
+        if (depth <= 0) continue;
+        const Eigen::Vector3d point = view.camera.unproject(x, y, depth);
+        const auto channel = [&](std::size_t c) {
+          return static_cast<std::uint32_t>(std::clamp(255.0 * texture.value(c, point), 0.0, 255.0));
+        };
+        image.at(x, y) = make_rgb(channel(0), channel(1), channel(2));
+      }
+    }
+    sphere.scene.views.push_back(view);
+    sphere.images.push_back(std::move(image));
+  }
+  return sphere;
+}
+
+SweepTask make_sphere_task(const SphereScene& sphere, int reference, const SweepOptions& options) {
+  std::vector<int> neighbors;
+  for (int view = 0; view < static_cast<int>(sphere.images.size()); ++view)
+    if (view != reference) neighbors.push_back(view);
+  SweepTask task;
+  task.options = options;
+  auto planes = make_depth_planes(sphere.scene, reference, neighbors, options);
+  QUORUM_CHECK_EQ(planes.has_value(), true);
+  task.planes = std::move(*planes);
+  const View& view = sphere.scene.views[static_cast<std::size_t>(reference)];
+  task.ranges = make_plane_ranges(view, sphere.scene.bounds, {}, task.planes, options.window / 2);
+  const auto padded = [&](int index) {
+    return std::make_shared<const PaddedImage>(pad_image(sphere.images[static_cast<std::size_t>(index)]));
+  };
+  task.reference = padded(reference);
+  for (const int neighbor : neighbors) {
+    task.neighbors.push_back(padded(neighbor));
+    task.warps.push_back(make_plane_warp(view.camera, sphere.scene.views[static_cast<std::size_t>(neighbor)].camera));
+  }
+  return task;
+}
+
+}  // namespace quorum
