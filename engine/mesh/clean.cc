@@ -1,0 +1,114 @@
+#include "engine/mesh/clean.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace quorum {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Removes the triangles of which the predicate is true and says how many they were.
+template <typename Predicate>
+std::uint64_t drop_triangles(std::vector<Triangle>& triangles, Predicate is_dropped) {
+  return static_cast<std::uint64_t>(std::erase_if(triangles, is_dropped));
+}
+
+/// Disjoint sets of vertices. The representative of a set is its lowest vertex, so that it does not depend on the order
+/// in which sets were joined.
+class Components {
+ public:
+  Components(std::size_t vertices, const std::vector<Triangle>& triangles) : parent_(vertices), triangles_(vertices) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    for (const Triangle& triangle : triangles) {
+      join(triangle[0], triangle[1]);
+      join(triangle[0], triangle[2]);
+    }
+    for (const Triangle& triangle : triangles) ++triangles_[find(triangle[0])];
+  }
+
+  std::uint32_t find(std::uint32_t vertex) {
+    while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
+    return vertex;
+  }
+
+  /// Triangles in the component of a vertex.
+  std::uint64_t size(std::uint32_t vertex) { return triangles_[find(vertex)]; }
+
+  /// Representative of the component with the most triangles; of equal ones the lowest. There is at least one vertex.
+  [[nodiscard]] std::uint32_t largest() const {
+    return static_cast<std::uint32_t>(std::ranges::max_element(triangles_) - triangles_.begin());
+  }
+
+ private:
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint64_t> triangles_;  ///< at representatives: triangles in the component
+};
+
+/// The vertices that stay, and triangles that count them anew.
+Mesh keep_vertices(const Mesh& mesh, std::vector<Triangle> triangles, const std::vector<bool>& kept) {
+  Mesh result;
+  std::vector<std::uint32_t> new_index(mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!kept[v]) continue;
+    new_index[v] = static_cast<std::uint32_t>(result.vertices.size());
+    result.vertices.push_back(mesh.vertices[v]);
+  }
+  for (Triangle& triangle : triangles)
+    for (std::uint32_t& corner : triangle) corner = new_index[corner];
+  result.triangles = std::move(triangles);
+  return result;
+}
+
+}  // namespace
+
+Expected<void> CleanOptions::check() const {
+  if (!(std::isfinite(min_confidence) && min_confidence >= 0))
+    return failure(ErrorKind::kUsage, fmt::format("min_confidence: {} is not a number of at least 0", min_confidence));
+  return {};
+}
+
+Mesh clean(const Mesh& mesh, const CleanOptions& options, CleanCounts* counts) {
+  CleanCounts dropped;
+  const auto is_confident = [&](std::uint32_t v) { return mesh.vertices[v].confidence >= options.min_confidence; };
+  std::vector<Triangle> triangles = mesh.triangles;
+  dropped.low_confidence_triangles =
+      drop_triangles(triangles, [&](const Triangle& triangle) { return !std::ranges::all_of(triangle, is_confident); });
+
+  Components components(mesh.vertices.size(), triangles);
+  dropped.small_component_triangles = drop_triangles(triangles, [&](const Triangle& triangle) {
+    return components.size(triangle[0]) < options.min_component_triangles;
+  });
+  if (options.largest_component && !triangles.empty()) {
+    const std::uint32_t largest = components.largest();
+    dropped.other_component_triangles =
+        drop_triangles(triangles, [&](const Triangle& triangle) { return components.find(triangle[0]) != largest; });
+  }
+
+  const bool is_cloud = mesh.triangles.empty();
+  std::vector<bool> kept(mesh.vertices.size(), is_cloud);
+  for (const Triangle& triangle : triangles)
+    for (const std::uint32_t corner : triangle) kept[corner] = true;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!is_confident(v)) {
+      kept[v] = false;
+      ++dropped.low_confidence_vertices;
+    } else if (!kept[v]) {
+      ++dropped.unreferenced_vertices;
+    }
+  }
+  if (counts != nullptr) *counts = dropped;
+  return keep_vertices(mesh, std::move(triangles), kept);
+}
+
+}  // namespace quorum

@@ -1,0 +1,35 @@
+// Removes what a reconstruction should not show: parts that few views support, and small parts that float.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/core/error.h"
+#include "engine/mesh/mesh.h"
+
+namespace quorum {
+
+struct CleanOptions {
+  float min_confidence = 0;                     ///< a triangle with a corner below this is dropped; >= 0
+  std::uint64_t min_component_triangles = 100;  ///< a component with fewer triangles is dropped; 0 or 1 keeps all
+  bool largest_component = false;               ///< keep only the component with the most triangles
+
+  /// Names the first option that is out of its range, and the range. kUsage.
+  [[nodiscard]] Expected<void> check() const;
+};
+
+/// What was dropped, each item under the first rule that it failed.
+struct CleanCounts {
+  std::uint64_t low_confidence_triangles = 0;
+  std::uint64_t small_component_triangles = 0;
+  std::uint64_t other_component_triangles = 0;  ///< not of the largest component
+  std::uint64_t low_confidence_vertices = 0;
+  std::uint64_t unreferenced_vertices = 0;  ///< confident, but of no triangle that stays
+};
+
+/// Drops triangles with a corner of low confidence, then components (triangles joined by shared vertices) that are too
+/// small, then, if wanted, all components but the largest (of equal ones the one with the lowest vertex index), then
+/// vertices that no triangle uses. What stays keeps its order. A cloud only loses its vertices of low confidence.
+/// counts: if given, receives what was dropped. Empty for an empty mesh. Cannot fail.
+Mesh clean(const Mesh& mesh, const CleanOptions& options, CleanCounts* counts = nullptr);
+
+}  // namespace quorum

@@ -1,0 +1,217 @@
+#include "engine/mesh/render.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "engine/core/check.h"
+
+namespace quorum {
+namespace {
+
+using EmbreeScene = std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)>;
+using Color = Eigen::Vector3f;  ///< red, green, blue, 0..255
+
+constexpr float kBackground = 255;  ///< in each channel
+constexpr float kSurface = 240;     ///< in each channel, where it is fully lit
+
+/// A triangle where a ray meets it, in camera axes.
+struct Hit {
+  std::array<const Vertex*, 3> corners;
+  Eigen::Vector3f shares;  ///< of the three corners, sum 1
+  Eigen::Vector3f normal;  ///< unit length, toward the side that is seen
+  bool is_back = false;
+
+  template <typename Function>
+  auto blend(Function value) const -> decltype(value(*corners[0])) {
+    return value(*corners[0]) * shares[0] + value(*corners[1]) * shares[1] + value(*corners[2]) * shares[2];
+  }
+};
+
+/// Positions in camera axes, so that rays start at the origin, and in a unit that suits single precision.
+struct ToTree {
+  const Camera& camera;
+  double scale = 1;  ///< tree units per scene unit
+
+  [[nodiscard]] Eigen::Vector3f operator()(const Vertex& vertex) const {
+    return (camera.to_camera(vertex.position.cast<double>()) * scale).cast<float>();
+  }
+};
+
+/// Scale at which the farthest vertex has a coordinate of 1.
+double scale_to_unit(const Mesh& mesh, const Camera& camera) {
+  double farthest = 0;
+  for (const Vertex& vertex : mesh.vertices)
+    if (vertex.position.allFinite())
+      farthest = std::max(farthest, camera.to_camera(vertex.position.cast<double>()).cwiseAbs().maxCoeff());
+  return farthest > 0 ? 1 / farthest : 1;
+}
+
+Expected<EmbreeScene> build_scene(const Mesh& mesh, const ToTree& to_tree) {
+  const auto no_memory = [&] {
+    return failure(ErrorKind::kMemory,
+                   fmt::format("no memory to draw {} triangles; draw a part or a coarser mesh", mesh.triangles.size()));
+  };
+  const auto no_device = [] {
+    return failure(ErrorKind::kDevice, "Embree can't draw on this machine; it needs a CPU with SSE2");
+  };
+  const std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device(rtcNewDevice(nullptr), &rtcReleaseDevice);
+  if (!device) return no_device();
+
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> geometry_owner(geometry, &rtcReleaseGeometry);
+  auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                3 * sizeof(float), mesh.vertices.size()));
+  if (positions == nullptr) return no_memory();
+  tbb::parallel_for(std::size_t{0}, mesh.vertices.size(),
+                    [&](std::size_t v) { Eigen::Map<Eigen::Vector3f>(positions + 3 * v) = to_tree(mesh.vertices[v]); });
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                             sizeof(mesh.triangles[0]), mesh.triangles.size());
+  rtcCommitGeometry(geometry);
+
+  EmbreeScene scene(rtcNewScene(device.get()), &rtcReleaseScene);
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
+  rtcAttachGeometry(scene.get(), geometry);
+  rtcCommitScene(scene.get());
+  switch (rtcGetDeviceError(device.get())) {
+    case RTC_ERROR_NONE:
+      return scene;
+    case RTC_ERROR_OUT_OF_MEMORY:
+      return no_memory();
+    default:
+      return no_device();
+  }
+}
+
+Hit describe_hit(const Mesh& mesh, const ToTree& to_tree, const RTCRayHit& ray) {
+  const auto& [a, b, c] = mesh.triangles[ray.hit.primID];
+  Hit hit;
+  hit.corners = {&mesh.vertices[a], &mesh.vertices[b], &mesh.vertices[c]};
+  hit.shares = {1 - ray.hit.u - ray.hit.v, ray.hit.u, ray.hit.v};
+  const Eigen::Vector3f origin = to_tree(*hit.corners[0]);
+  const Eigen::Vector3f face =
+      (to_tree(*hit.corners[1]) - origin).cross(to_tree(*hit.corners[2]) - origin).normalized();
+  hit.is_back = face.dot(Eigen::Vector3f(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z)) > 0;
+  const bool has_normals = std::ranges::none_of(hit.corners, [](const Vertex* v) { return v->normal.isZero(0); });
+  const Eigen::Vector3f in_world = hit.blend([](const Vertex& v) { return Eigen::Vector3f(v.normal); });
+  hit.normal = has_normals ? (to_tree.camera.camera_from_world.cast<float>() * in_world).normalized() : face;
+  if (hit.is_back) hit.normal = -hit.normal;
+  return hit;
+}
+
+Color lit_surface(const Eigen::Vector3f& normal, const Eigen::Vector3f& to_camera) {
+  const Eigen::Vector3f to_side_light = Eigen::Vector3f(-0.7F, -0.6F, -0.4F).normalized();
+  constexpr float kAmbient = 0.15F;
+  constexpr float kCamera = 0.55F;
+  constexpr float kSide = 0.3F;
+  return Color::Constant(kSurface * (kAmbient + kCamera * std::max(0.0F, normal.dot(to_camera)) +
+                                     kSide * std::max(0.0F, normal.dot(to_side_light))));
+}
+
+Color vertex_color(const Vertex& vertex) {
+  return {static_cast<float>(red_of(vertex.color)), static_cast<float>(green_of(vertex.color)),
+          static_cast<float>(blue_of(vertex.color))};
+}
+
+/// share: 0 dark red, 0.5 orange, 1 yellow; each channel rises or stays.
+Color confidence_color(float share) {
+  const float s = std::clamp(share, 0.0F, 1.0F);
+  return {70 + 185 * std::min(1.0F, 2 * s), 225 * s, 20 + 60 * s};
+}
+
+Color shade(const Hit& hit, const Eigen::Vector3f& to_camera, const RenderOptions& options) {
+  switch (options.shading) {
+    case RenderOptions::Shading::kColor:
+      return hit.blend(vertex_color);
+    case RenderOptions::Shading::kConfidence:
+      return confidence_color(hit.blend([](const Vertex& v) { return v.confidence; }) / options.full_confidence);
+    case RenderOptions::Shading::kNormal:
+      return (Color(hit.normal.x(), -hit.normal.y(), -hit.normal.z()).array() + 1.0F) * 127.5F;
+    case RenderOptions::Shading::kShaded:
+      break;
+  }
+  return lit_surface(hit.normal, to_camera);
+}
+
+Color tint_back(const Color& color) { return color.cwiseProduct(Color(0.45F, 0.6F, 1.0F)); }
+
+/// Color seen along a direction from the center of projection. direction: camera axes, unit length.
+Color trace(RTCScene scene, const Mesh& mesh, const ToTree& to_tree, const Eigen::Vector3f& direction,
+            const RenderOptions& options) {
+  RTCRayHit ray{};
+  ray.ray.dir_x = direction.x();
+  ray.ray.dir_y = direction.y();
+  ray.ray.dir_z = direction.z();
+  ray.ray.tfar = std::numeric_limits<float>::infinity();
+  ray.ray.mask = ~0U;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Color::Constant(kBackground);
+  const Hit hit = describe_hit(mesh, to_tree, ray);
+  const Color color = shade(hit, -direction, options);
+  return hit.is_back ? tint_back(color) : color;
+}
+
+Rgba to_pixel(const Color& color) {
+  // max comes first: it turns a value that is no number, from a file's normals say, into 0.
+  const auto byte = [](float value) {
+    return static_cast<std::uint32_t>(std::min(255.0F, std::max(0.0F, value + 0.5F)));
+  };
+  return make_rgb(byte(color[0]), byte(color[1]), byte(color[2]));
+}
+
+float highest_confidence(const Mesh& mesh) {
+  float highest = 0;
+  for (const Vertex& vertex : mesh.vertices) highest = std::max(highest, vertex.confidence);
+  return highest > 0 ? highest : 1;
+}
+
+}  // namespace
+
+Expected<void> RenderOptions::check() const {
+  if (!(std::isfinite(full_confidence) && full_confidence >= 0))
+    return failure(ErrorKind::kUsage,
+                   fmt::format("full_confidence: {} is not a number of at least 0", full_confidence));
+  return {};
+}
+
+Expected<ColorImage> render_mesh(const Mesh& mesh, const Camera& camera, int width, int height,
+                                 const RenderOptions& options) {
+  QUORUM_CHECK_GE(width, 0);
+  QUORUM_CHECK_GE(height, 0);
+  if (auto checked = options.check(); !checked) return std::unexpected(checked.error());
+  ColorImage image(width, height, to_pixel(Color::Constant(kBackground)));
+  if (mesh.triangles.empty()) return image;
+
+  RenderOptions settled = options;
+  if (settled.full_confidence == 0) settled.full_confidence = highest_confidence(mesh);
+  const ToTree to_tree{camera, scale_to_unit(mesh, camera)};
+  const auto scene = build_scene(mesh, to_tree);
+  if (!scene) return std::unexpected(scene.error());
+
+  const Eigen::Matrix3d ray_from_pixel = camera.intrinsics.inverse();
+  tbb::parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      Color sum = Color::Zero();
+      for (const double dy : {-0.25, 0.25})
+        for (const double dx : {-0.25, 0.25}) {
+          const Eigen::Vector3d direction = (ray_from_pixel * Eigen::Vector3d(x + dx, y + dy, 1)).normalized();
+          sum += trace(scene->get(), mesh, to_tree, direction.cast<float>(), settled);
+        }
+      image.at(x, y) = to_pixel(sum / 4);
+    }
+  });
+  return image;
+}
+
+}  // namespace quorum

@@ -1,0 +1,53 @@
+#include "engine/volume/voxel_grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quorum {
+namespace {
+
+/// Side of a pixel at the center of the bounds, in the middle of all views.
+double median_footprint(const Scene& scene) {
+  std::vector<double> footprints;
+  for (const View& view : scene.views) {
+    const double depth = view.camera.to_camera(scene.bounds.center()).z();
+    if (depth > 0) footprints.push_back(2.0 * depth / (view.camera.intrinsics(0, 0) + view.camera.intrinsics(1, 1)));
+  }
+  if (footprints.empty()) return 0.0;
+  const auto middle = footprints.begin() + static_cast<std::ptrdiff_t>(footprints.size() / 2);
+  std::nth_element(footprints.begin(), middle, footprints.end());
+  return *middle;
+}
+
+}  // namespace
+
+Expected<VoxelGrid> make_voxel_grid(const Scene& scene, const FusionOptions& options) {
+  constexpr double kTruncationInVoxels = 4.0;
+  constexpr double kMaxBlocks = 1 << 30;
+  VoxelGrid grid;
+  grid.voxel_size = options.voxel_size > 0 ? options.voxel_size : median_footprint(scene);
+  if (!(grid.voxel_size > 0))
+    return failure(ErrorKind::kInput, "the center of the bounds lies behind every camera; check --bounds");
+  grid.truncation = options.truncation > 0 ? options.truncation : kTruncationInVoxels * grid.voxel_size;
+  if (grid.truncation < 1.5 * grid.voxel_size || grid.truncation > 32 * grid.voxel_size)
+    return failure(ErrorKind::kUsage, fmt::format("--truncation {}: give 1.5 to 32 times the voxel size {}",
+                                                  grid.truncation, grid.voxel_size));
+  const Bounds bounds = scene.bounds.expanded(grid.truncation + grid.voxel_size);
+  grid.origin = bounds.low;
+  double blocks = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double count = std::ceil(bounds.size()(axis) / (grid.voxel_size * kBlockSide));
+    blocks *= count;
+    grid.blocks[static_cast<std::size_t>(axis)] = static_cast<int>(std::min(count, kMaxBlocks));
+  }
+  if (blocks > kMaxBlocks)
+    return failure(ErrorKind::kUsage,
+                   fmt::format("--voxel-size {}: the bounds would hold {:.3g} blocks of 8x8x8 voxels, more than {:.0f}; "
+                               "give a larger voxel or smaller bounds",
+                               grid.voxel_size, blocks, kMaxBlocks));
+  return grid;
+}
+
+}  // namespace quorum

@@ -1,0 +1,16 @@
+// The weights of a range surface's vertices: the confidence, times the cosine of the angle between surface and line of
+// sight, times a ramp that falls toward borders of the surface (the paper, section 2.2; Curless and Levoy 1996).
+// Twin of shaders/weigh_surface.comp.
+#pragma once
+
+#include "engine/volume/range_surface.h"
+
+namespace quorum {
+
+WeighSurfaceParams make_weigh_surface_params(const Camera& camera, int width, int height, const FusionOptions& options);
+
+/// Weight per pixel, 0..kWeightScale: at least 1 at every corner of a triangle, 0 elsewhere.
+Grid<std::uint32_t> weigh_surface(const Grid<float>& depth, const Grid<float>& confidence,
+                                  const Grid<std::uint32_t>& cells, const WeighSurfaceParams& params);
+
+}  // namespace quorum
