@@ -1,0 +1,43 @@
+// Distance from points to the nearest place on a surface. Embree finds the candidates in single precision; the distance
+// itself is computed in double from the corners, so the result depends neither on the search tree nor on the CPU.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/core/error.h"
+#include "engine/mesh/mesh.h"
+
+namespace quorum {
+
+/// A surface that distances can be taken to: a mesh or, without triangles, a cloud. Fails (kInput) if it has no vertex
+/// or if a position is not finite.
+Expected<void> check_surface(const Mesh& surface);
+
+/// Distance of a point to a triangle, scene units. Corners that lie on a line or in a point are a segment or a point.
+double distance_to_triangle(const Eigen::Vector3d& point, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                            const Eigen::Vector3d& c);
+
+/// Unsigned distances to a mesh (nearest place on its triangles) or to a cloud (nearest point).
+class SurfaceDistance {
+ public:
+  /// The surface is not copied and must outlive the object. Fails as check_surface does, and (kMemory, kDevice) if
+  /// Embree can't build its search tree.
+  static Expected<SurfaceDistance> build(const Mesh& surface);
+
+  /// Distance of one point, scene units; the point is finite. May be called from several threads.
+  double operator()(const Eigen::Vector3d& point) const;
+
+  /// Distance of each point, in their order. In parallel.
+  [[nodiscard]] std::vector<double> to(std::span<const Eigen::Vector3d> points) const;
+
+ private:
+  struct Tree;
+  explicit SurfaceDistance(std::shared_ptr<const Tree> tree) : tree_(std::move(tree)) {}
+  std::shared_ptr<const Tree> tree_;
+};
+
+}  // namespace quorum
