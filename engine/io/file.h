@@ -1,0 +1,25 @@
+// Whole files, written so that a final name never holds half a file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "engine/core/error.h"
+
+namespace quorum {
+
+/// Bytes of a regular file. Fails (kInput) if it is absent, unreadable or not a regular file, and (kMemory) if it does
+/// not fit into memory.
+Expected<std::string> read_file(const std::filesystem::path& path);
+
+/// Writes bytes to a temporary name in the folder of path, syncs, and renames it to path, which may be a regular file
+/// already. On failure (kInput: no such folder, no permission, full disk, path is a folder or a device) the temporary
+/// file is removed and path is as it was. A process that is killed may leave ".quorum-*.tmp" behind.
+Expected<void> write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Makes a folder and its parents; one that is there already stays. Fails (kInput) if that can't be done or if no file
+/// can be created in it.
+Expected<void> make_folder(const std::filesystem::path& path);
+
+}  // namespace quorum

@@ -1,0 +1,108 @@
+#include "engine/io/image_store.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "engine/core/check.h"
+#include "engine/io/image_file.h"
+
+namespace quorum {
+namespace {
+
+template <typename T>
+std::size_t byte_count(const Grid<T>& grid) {
+  return grid.values.size() * sizeof(T);
+}
+
+/// Decodes a file of a view with read, and requires the view's size.
+template <typename T>
+Expected<Grid<T>> load(const View& view, const std::filesystem::path& path,
+                       Expected<Grid<T>> (*read)(const std::filesystem::path&)) {
+  auto pixels = read(path);
+  if (!pixels || (pixels->width == view.width && pixels->height == view.height)) return pixels;
+  return failure(ErrorKind::kInput,
+                 fmt::format("{}: is {} x {}, expected {} x {} as the first image; replace it or leave its view out",
+                             path.string(), pixels->width, pixels->height, view.width, view.height));
+}
+
+}  // namespace
+
+ImageStore::ImageStore(const Scene& scene, std::size_t budget_bytes, double mask_below)
+    : scene_(&scene), budget_bytes_(budget_bytes), mask_below_(mask_below) {}
+
+Expected<std::shared_ptr<const ColorImage>> ImageStore::image(int view) {
+  const View& source = view_at(view);
+  const Key key{Kind::kImage, view};
+  if (auto kept = find(key)) return std::static_pointer_cast<const ColorImage>(kept);
+  auto loaded = load(source, source.image_path, read_image);
+  if (!loaded) return std::unexpected(std::move(loaded.error()));
+  const std::size_t bytes = byte_count(*loaded);
+  return std::static_pointer_cast<const ColorImage>(
+      keep(key, std::make_shared<const ColorImage>(std::move(*loaded)), bytes));
+}
+
+Expected<std::shared_ptr<const Mask>> ImageStore::mask(int view) {
+  if (view_at(view).mask_path.empty() && mask_below_ <= 0.0) return std::make_shared<const Mask>();
+  const Key key{Kind::kMask, view};
+  if (auto kept = find(key)) return std::static_pointer_cast<const Mask>(kept);
+  auto loaded = load_mask(view);
+  if (!loaded) return std::unexpected(std::move(loaded.error()));
+  const std::size_t bytes = byte_count(*loaded);
+  return std::static_pointer_cast<const Mask>(keep(key, std::make_shared<const Mask>(std::move(*loaded)), bytes));
+}
+
+std::size_t ImageStore::kept_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return kept_bytes_;
+}
+
+const View& ImageStore::view_at(int view) const {
+  QUORUM_CHECK_GE(view, 0);
+  QUORUM_CHECK_LT(static_cast<std::size_t>(view), scene_->views.size());
+  return scene_->views[static_cast<std::size_t>(view)];
+}
+
+Expected<Mask> ImageStore::load_mask(int view) {
+  const View& source = view_at(view);
+  Mask mask(source.width, source.height, 1);
+  if (!source.mask_path.empty()) {
+    auto from_file = load(source, source.mask_path, read_mask);
+    if (!from_file) return from_file;
+    mask = std::move(*from_file);
+  }
+  if (mask_below_ > 0.0) {
+    const auto photograph = image(view);
+    if (!photograph) return std::unexpected(photograph.error());
+    const Mask object = mask_dark_background(**photograph, mask_below_);
+    std::ranges::transform(mask.values, object.values, mask.values.begin(), std::bit_and<>());
+  }
+  return mask;
+}
+
+std::shared_ptr<const void> ImageStore::find(Key key) {
+  const std::lock_guard lock(mutex_);
+  const auto place = places_.find(key);
+  if (place == places_.end()) return nullptr;
+  entries_.splice(entries_.begin(), entries_, place->second);
+  return place->second->value;
+}
+
+/// Keeps a value within the budget; returns it, or the one that another thread has kept meanwhile.
+std::shared_ptr<const void> ImageStore::keep(Key key, std::shared_ptr<const void> value, std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (const auto place = places_.find(key); place != places_.end()) return place->second->value;
+  if (bytes > budget_bytes_) return value;
+  while (kept_bytes_ > budget_bytes_ - bytes) {
+    kept_bytes_ -= entries_.back().bytes;
+    places_.erase(entries_.back().key);
+    entries_.pop_back();
+  }
+  entries_.push_front({key, value, bytes});
+  places_.emplace(key, entries_.begin());
+  kept_bytes_ += bytes;
+  return value;
+}
+
+}  // namespace quorum

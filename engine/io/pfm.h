@@ -1,0 +1,19 @@
+// Float maps as PFM files (Paul Debevec's "portable float map"): one channel, rows from the bottom.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/core/error.h"
+#include "engine/core/grid.h"
+
+namespace quorum {
+
+/// Writes a one-channel little-endian PFM through a temporary file. A map without values gives a file with a size of
+/// 0. Fails (kInput) if the file can't be written.
+Expected<void> write_pfm(const std::filesystem::path& path, const Grid<float>& map);
+
+/// Reads a one-channel PFM of either byte order. The size of the scale is ignored, as other readers do. Fails (kInput)
+/// if the header is malformed or the file is shorter or longer than the header says: the message names file and line.
+Expected<Grid<float>> read_pfm(const std::filesystem::path& path);
+
+}  // namespace quorum

@@ -1,0 +1,18 @@
+// Maps as pictures to look at.
+#pragma once
+
+#include "engine/core/grid.h"
+#include "engine/image/image.h"
+
+namespace quorum {
+
+/// A depth map in the colors of "Turbo" (Mikhailov 2019): blue for near to red for far, between the 1st and the 99th
+/// percentile of the depths, beyond them as at them. Black where there is no depth (0, negative or not finite). Empty
+/// for an empty map.
+ColorImage color_map_depth(const Grid<float>& depth);
+
+/// A map of values from 0 (black) to 1 (white) in gray, as in the paper's figure 2. Values outside are clamped; what is
+/// not a number is black. Empty for an empty map.
+ColorImage color_map_unit(const Grid<float>& map);
+
+}  // namespace quorum

@@ -1,0 +1,57 @@
+// Lines, tokens and numbers of text files, and failures that name a line.
+#pragma once
+
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/error.h"
+
+namespace quorum {
+
+/// What separates tokens within a line.
+inline constexpr std::string_view kTextSpace = " \t\r\f\v";
+
+/// Tokens of a line.
+std::vector<std::string_view> split_tokens(std::string_view line);
+
+/// The number that a whole token spells, independent of the locale; nothing if it spells none or is out of T's range.
+template <typename T>
+std::optional<T> parse_number(std::string_view token) {
+  T value{};
+  const char* end = token.data() + token.size();
+  const auto [parsed_end, code] = std::from_chars(token.data(), end, value);
+  if (code != std::errc() || parsed_end != end) return std::nullopt;
+  return value;
+}
+
+/// Walks over the lines of a text; they end with LF or CRLF, the last one also with the text.
+class LineReader {
+ public:
+  explicit LineReader(std::string_view text) : text_(text) {}
+
+  /// The next line without its end, or nothing after the last one.
+  std::optional<std::string_view> next();
+  /// The next line that holds more than spaces, or nothing.
+  std::optional<std::string_view> next_filled();
+  /// Number of the line that was last returned; the first is 1.
+  [[nodiscard]] int number() const { return number_; }
+  /// Position of the first byte after that line.
+  [[nodiscard]] std::size_t position() const { return position_; }
+
+ private:
+  std::string_view text_;
+  std::size_t position_ = 0;
+  int number_ = 0;
+};
+
+/// A token in quotes for a message: cut after 40 characters, with question marks for what can't be printed.
+std::string quote_token(std::string_view token);
+
+/// Failure (kInput) "path:line: message".
+std::unexpected<Error> failure_at_line(const std::filesystem::path& path, int line, std::string_view message);
+
+}  // namespace quorum
