@@ -2,6 +2,7 @@
 include(GoogleTest)
 
 file(GLOB support_sources CONFIGURE_DEPENDS tests/support/*.cc)
+list(FILTER support_sources EXCLUDE REGEX "vulkan_test\\.cc$")
 add_library(quorum_test_support STATIC ${support_sources})
 target_link_libraries(quorum_test_support PUBLIC quorum_engine GTest::gtest)
 
@@ -17,8 +18,9 @@ quorum_test(engine_tests ${engine_tests})
 if(QUORUM_VULKAN)
   file(GLOB host_tests CONFIGURE_DEPENDS tests/host/*_test.cc tests/parity/*_test.cc)
   if(host_tests)
-    quorum_test(host_tests ${host_tests})
-    target_link_libraries(host_tests PRIVATE quorum_host Vulkan::Headers)
+    quorum_kernels(quorum_test_kernels ${CMAKE_SOURCE_DIR}/tests/host/kernels test_kernel_table)
+    quorum_test(host_tests ${host_tests} tests/support/vulkan_test.cc)
+    target_link_libraries(host_tests PRIVATE quorum_host quorum_test_kernels Vulkan::Headers)
   endif()
 endif()
 

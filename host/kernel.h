@@ -1,0 +1,41 @@
+// A compute kernel, ready to be dispatched on one device.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/error.h"
+#include "host/device.h"
+#include "host/kernel_layout.h"
+#include "host/kernel_table.h"
+
+namespace quorum {
+
+/// Move-only; a moved-from kernel may only be assigned to or destroyed.
+class Kernel {
+ public:
+  /// Builds a kernel with specialization constants by name, such as {{"kWindow", 5}}; those not named keep the defaults
+  /// of the shader. A name that the kernel does not declare stops the program. Fails (kDevice) if the work group or the
+  /// number of buffers exceeds the device's limits, or if the driver can't compile the kernel.
+  static Expected<Kernel> create(const Device& device, const KernelCode& code,
+                                 const std::vector<SpecConstant>& constants = {});
+
+  Kernel(Kernel&& other) noexcept;
+  Kernel& operator=(Kernel&& other) noexcept;
+  ~Kernel();
+
+  [[nodiscard]] const std::string& name() const;
+  /// Bindings, push-constant size, work-group size and constants, as specialized.
+  [[nodiscard]] const KernelLayout& layout() const;
+
+  /// What the kernel holds of Vulkan (host/state.h); for the files of this layer.
+  struct State;
+  [[nodiscard]] const State& state() const { return *state_; }
+
+ private:
+  explicit Kernel(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace quorum

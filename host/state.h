@@ -1,0 +1,113 @@
+// What devices, buffers and kernels hold of Vulkan. For the files of this layer alone; stages need none of it.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/buffer.h"
+#include "host/device.h"
+#include "host/instance.h"
+#include "host/kernel.h"
+#include "host/vulkan.h"
+
+namespace quorum {
+
+/// Messages of the validation layer, which may come from any thread.
+struct MessageLog {
+  std::mutex mutex;
+  std::vector<std::string> messages;
+};
+
+/// A Vulkan buffer with its memory, mapped if the host can see it.
+struct Allocation {
+  vk::raii::DeviceMemory memory = nullptr;
+  vk::raii::Buffer buffer = nullptr;
+  std::byte* mapped = nullptr;
+};
+
+/// A pool with one command buffer, and the fence that says when it is done.
+struct Recorder {
+  vk::raii::CommandPool pool = nullptr;
+  vk::raii::CommandBuffer commands = nullptr;
+  vk::raii::Fence fence = nullptr;
+};
+
+struct Device::State {
+  DeviceInfo info;
+  DeviceOptions options;
+  Instance instance;
+  MessageLog log;
+  vk::raii::DebugUtilsMessengerEXT messenger = nullptr;
+  vk::raii::PhysicalDevice physical = nullptr;
+  vk::PhysicalDeviceLimits limits;
+  vk::PhysicalDeviceMemoryProperties memory;
+  std::uint32_t queue_family = 0;
+  std::uint32_t timestamp_bits = 0;  ///< valid bits of a timestamp; 0: the queue has none
+  vk::raii::Device device = nullptr;
+  vk::raii::Queue queue = nullptr;
+  std::mutex queue_mutex;
+  bool unanswered = false;  ///< a submission did not end in time; guarded by queue_mutex
+
+  std::mutex transfer_mutex;  ///< guards what follows
+  Recorder transfer;
+  Allocation staging;
+
+  explicit State(Instance from) : instance(std::move(from)) {}
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() { settle(); }
+
+  /// A buffer of size bytes in the first kind of memory that has all flags of a wish; wishes from best to worst.
+  /// Mapped if that memory is visible to the host and coherent. Throws vk::SystemError.
+  Allocation allocate(std::uint64_t size, vk::BufferUsageFlags usage,
+                      std::initializer_list<vk::MemoryPropertyFlags> wishes) const;
+
+  /// Throws vk::SystemError.
+  [[nodiscard]] Recorder make_recorder() const;
+
+  /// Submits what recorder holds and waits. Fails (kDevice) if the device is lost or gives no answer within timeout,
+  /// (kMemory) if memory runs out. doing: the clause in front of the message.
+  Expected<void> submit(const Recorder& recorder, std::chrono::nanoseconds timeout, std::string_view doing);
+
+  /// Records, submits and waits for a transfer; the caller holds transfer_mutex.
+  Expected<void> transfer_now(std::string_view doing,
+                              const std::function<void(const vk::raii::CommandBuffer&)>& record);
+
+  /// Waits for a submission that gave no answer in time, before what it may use is destroyed or used again.
+  void settle() noexcept;
+};
+
+struct Buffer::State {
+  std::shared_ptr<Device::State> device;
+  std::uint64_t size = 0;      ///< bytes the caller asked for
+  std::uint64_t capacity = 0;  ///< bytes there are: size rounded up to whole words, at least one
+  Allocation allocation;
+
+  ~State() { device->settle(); }
+};
+
+struct Kernel::State {
+  std::shared_ptr<Device::State> device;
+  std::string name;
+  KernelLayout layout;
+  vk::raii::DescriptorSetLayout set_layout = nullptr;
+  vk::raii::PipelineLayout pipeline_layout = nullptr;
+  vk::raii::Pipeline pipeline = nullptr;
+
+  ~State() { device->settle(); }
+};
+
+/// How long a submission may take before it counts as failed. Drivers reset a GPU that hangs long before.
+inline constexpr std::chrono::seconds kPatience{120};
+
+/// Makes what kernels and copies wrote visible to all later kernels, copies and the host.
+void publish_writes(const vk::raii::CommandBuffer& commands);
+
+}  // namespace quorum

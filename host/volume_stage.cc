@@ -1,0 +1,148 @@
+#include "host/volume_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "engine/volume/collect_blocks.h"
+#include "engine/volume/integrate.h"
+#include "engine/volume/weigh_surface.h"
+#include "host/kernel_table.h"
+
+namespace quorum {
+namespace {
+
+constexpr std::size_t kBlockBytes = kBlockVoxels * sizeof(Voxel);
+constexpr std::size_t kMaxDispatchBlocks = 16384;  // 8 million voxels: some 10 ms, and within any maxComputeWorkGroupCount
+
+}  // namespace
+
+Expected<VolumeStage> VolumeStage::create(const Device& device, Commands& commands) {
+  auto range_surface = Kernel::create(device, find_kernel("range_surface"));
+  if (!range_surface) return std::unexpected(range_surface.error());
+  auto weigh_surface = Kernel::create(device, find_kernel("weigh_surface"));
+  if (!weigh_surface) return std::unexpected(weigh_surface.error());
+  auto collect_blocks = Kernel::create(device, find_kernel("collect_blocks"));
+  if (!collect_blocks) return std::unexpected(collect_blocks.error());
+  auto integrate = Kernel::create(device, find_kernel("integrate"));
+  if (!integrate) return std::unexpected(integrate.error());
+  return VolumeStage(device, commands,
+                     Kernels{std::move(*range_surface), std::move(*weigh_surface), std::move(*collect_blocks),
+                             std::move(*integrate)});
+}
+
+void VolumeStage::begin(const VoxelGrid& grid, const FusionOptions& options) {
+  grid_ = grid;
+  fusion_ = options;
+  indices_.clear();
+  pool_.clear();
+}
+
+Expected<VolumeStage::Surface> VolumeStage::record_surface(const FusionView& view) {
+  const int width = view.map.depth.width;
+  const int height = view.map.depth.height;
+  auto depth = Buffer::of(*device_, view.map.depth.values);
+  if (!depth) return std::unexpected(depth.error());
+  auto confidence = Buffer::of(*device_, view.map.confidence.values);
+  if (!confidence) return std::unexpected(confidence.error());
+  auto cells = Buffer::create(*device_, view.map.depth.values.size() * sizeof(std::uint32_t));
+  if (!cells) return std::unexpected(cells.error());
+  auto weights = Buffer::create(*device_, view.map.depth.values.size() * sizeof(std::uint32_t));
+  if (!weights) return std::unexpected(weights.error());
+  Surface surface{std::move(*depth), std::move(*confidence), std::move(*cells), std::move(*weights)};
+  commands_->region("range_surface");
+  commands_->dispatch(kernels_.range_surface, {width, height},
+                      make_range_surface_params(view.camera, width, height, fusion_), {surface.depth, surface.cells});
+  commands_->region("weigh_surface");
+  commands_->dispatch(kernels_.weigh_surface, {width, height},
+                      make_weigh_surface_params(view.camera, width, height, fusion_),
+                      {surface.depth, surface.confidence, surface.cells, surface.weights});
+  return surface;
+}
+
+Expected<std::vector<std::uint32_t>> VolumeStage::collect_blocks(const FusionView& view) {
+  const int width = view.map.depth.width;
+  const int height = view.map.depth.height;
+  auto surface = record_surface(view);
+  if (!surface) return std::unexpected(surface.error());
+  std::vector<std::uint32_t> bits((grid_.block_count() + 31) / 32);
+  auto bit_buffer = Buffer::of(*device_, bits);
+  if (!bit_buffer) return std::unexpected(bit_buffer.error());
+  commands_->region("collect_blocks");
+  commands_->dispatch(kernels_.collect_blocks, {width, height}, make_collect_params(view.camera, width, height, grid_),
+                      {surface->depth, surface->weights, *bit_buffer});
+  if (auto done = commands_->submit(); !done) return std::unexpected(done.error());
+  if (auto read = bit_buffer->download(bits); !read) return std::unexpected(read.error());
+  return block_indices(bits);
+}
+
+Expected<void> VolumeStage::allocate_blocks(std::vector<std::uint32_t> indices) {
+  indices_ = std::move(indices);
+  pool_.clear();
+  blocks_per_buffer_ =
+      std::max<std::size_t>(1, std::min(device_->info().max_storage_buffer_range, device_->info().max_allocation) / kBlockBytes);
+  for (std::size_t first = 0; first < indices_.size(); first += blocks_per_buffer_) {
+    const std::size_t count = std::min(blocks_per_buffer_, indices_.size() - first);
+    auto buffer = Buffer::create(*device_, count * kBlockBytes);
+    if (!buffer)
+      return std::unexpected(buffer.error().within(
+          fmt::format("volume of {} blocks, {} MiB", indices_.size(), indices_.size() * kBlockBytes >> 20)));
+    if (auto filled = buffer->fill_zero(); !filled) return filled;
+    pool_.push_back(std::move(*buffer));
+  }
+  return {};
+}
+
+Expected<void> VolumeStage::integrate(const FusionView& view, const std::vector<std::uint32_t>& blocks) {
+  const int width = view.map.depth.width;
+  const int height = view.map.depth.height;
+  const std::vector<BlockSlot> list = find_slots(blocks, indices_);
+  if (list.empty()) return {};
+  auto surface = record_surface(view);
+  if (!surface) return std::unexpected(surface.error());
+  auto image = Buffer::of(*device_, view.image.pixels);
+  if (!image) return std::unexpected(image.error());
+  auto list_buffer = Buffer::of(*device_, list);
+  if (!list_buffer) return std::unexpected(list_buffer.error());
+
+  IntegrateParams params = make_integrate_params(view.camera, width, height, grid_);
+  commands_->region("integrate");
+  for (std::size_t begin = 0; begin < list.size();) {
+    const std::size_t buffer = list[begin].slot / blocks_per_buffer_;
+    const auto buffer_end = std::partition_point(list.begin() + static_cast<std::ptrdiff_t>(begin), list.end(), [&](const BlockSlot& entry) {
+      return entry.slot < (buffer + 1) * blocks_per_buffer_;
+    });
+    const std::size_t end =
+        std::min(static_cast<std::size_t>(buffer_end - list.begin()), begin + kMaxDispatchBlocks);
+    params.list_begin = static_cast<int>(begin);
+    params.pool_begin = static_cast<int>(buffer * blocks_per_buffer_);
+    commands_->dispatch(kernels_.integrate, {kBlockVoxels, static_cast<std::int64_t>(end - begin)}, params,
+                        {surface->depth, surface->cells, surface->weights, *image, *list_buffer, pool_[buffer]});
+    if (auto done = commands_->submit(); !done) return done;
+    begin = end;
+  }
+  return {};
+}
+
+Expected<BlockPool> VolumeStage::read_blocks() {
+  BlockPool pool;
+  pool.indices = std::exchange(indices_, {});
+  try {
+    pool.voxels.resize(pool.indices.size() * kBlockVoxels);
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorKind::kMemory, fmt::format("reading the volume back needs {} MiB; give a larger --voxel-size",
+                                                   pool.indices.size() * kBlockBytes >> 20));
+  }
+  for (std::size_t buffer = 0; buffer < pool_.size(); ++buffer) {
+    const std::size_t first = buffer * blocks_per_buffer_;
+    const std::size_t count = std::min(blocks_per_buffer_, pool.indices.size() - first);
+    const std::span<Voxel> part(pool.voxels.data() + first * kBlockVoxels, count * kBlockVoxels);
+    if (auto read = pool_[buffer].download(part); !read) return std::unexpected(read.error());
+  }
+  pool_.clear();
+  return pool;
+}
+
+}  // namespace quorum

@@ -1,0 +1,46 @@
+// The stages on a Vulkan device.
+#pragma once
+
+#include <memory>
+
+#include "engine/pipeline/backend.h"
+#include "host/depth_stage.h"
+#include "host/volume_stage.h"
+
+namespace quorum {
+
+class VulkanBackend : public Backend {
+ public:
+  /// Fails (kDevice, kMemory) if the device does. The backend keeps the device open.
+  static Expected<std::unique_ptr<VulkanBackend>> create(const Device& device);
+
+  [[nodiscard]] std::string description() const override;
+  Expected<DepthMap> sweep_depth(const SweepTask& task) override { return depth_.run(task); }
+  Expected<void> begin_volume(const VoxelGrid& grid, const FusionOptions& options) override {
+    volume_.begin(grid, options);
+    return {};
+  }
+  Expected<std::vector<std::uint32_t>> collect_blocks(const FusionView& view) override {
+    return volume_.collect_blocks(view);
+  }
+  Expected<void> allocate_blocks(std::vector<std::uint32_t> indices) override {
+    return volume_.allocate_blocks(std::move(indices));
+  }
+  Expected<void> integrate(const FusionView& view, const std::vector<std::uint32_t>& blocks) override {
+    return volume_.integrate(view, blocks);
+  }
+  Expected<BlockPool> read_blocks() override { return volume_.read_blocks(); }
+  [[nodiscard]] std::vector<StageTime> kernel_times() const override;
+
+ private:
+  VulkanBackend(std::unique_ptr<Device> device, std::unique_ptr<Commands> commands, DepthStage depth,
+                VolumeStage volume)
+      : device_(std::move(device)), commands_(std::move(commands)), depth_(std::move(depth)), volume_(std::move(volume)) {}
+
+  std::unique_ptr<Device> device_;
+  std::unique_ptr<Commands> commands_;
+  DepthStage depth_;
+  VolumeStage volume_;
+};
+
+}  // namespace quorum
