@@ -1,0 +1,62 @@
+// What the pipeline asks of a device. CpuBackend and VulkanBackend give the same bytes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/camera/camera.h"
+#include "engine/core/error.h"
+#include "engine/depth/depth_map.h"
+#include "engine/depth/sweep_task.h"
+#include "engine/image/padded_image.h"
+#include "engine/volume/fusion_options.h"
+#include "engine/volume/voxel_grid.h"
+
+namespace quorum {
+
+/// One view as the volume takes it.
+struct FusionView {
+  const DepthMap& map;
+  const PaddedImage& image;
+  const Camera& camera;
+};
+
+/// Time that a device spent on one kernel or stage.
+struct StageTime {
+  std::string name;
+  double seconds = 0.0;
+};
+
+/// The stages of a run on one device. One call at a time. Failures are kDevice or kMemory.
+class Backend {
+ public:
+  Backend() = default;
+  Backend(const Backend&) = delete;
+  Backend& operator=(const Backend&) = delete;
+  virtual ~Backend() = default;
+
+  /// What does the work, in words: "CPU, 2 threads, AVX-512" or a device with its driver.
+  [[nodiscard]] virtual std::string description() const = 0;
+
+  /// Depth, correlation and confidence of one reference view (the paper, 2.1).
+  virtual Expected<DepthMap> sweep_depth(const SweepTask& task) = 0;
+
+  // A volume (the paper, 2.2): begin it, collect the blocks of every view, allocate them all, integrate every view into
+  // its blocks, read them. Views may come in any order: sums are exact.
+
+  /// Starts a volume and forgets the last.
+  virtual Expected<void> begin_volume(const VoxelGrid& grid, const FusionOptions& options) = 0;
+  /// Indices of the blocks near the view's range surface, ascending.
+  virtual Expected<std::vector<std::uint32_t>> collect_blocks(const FusionView& view) = 0;
+  /// Stores these blocks (ascending), all voxels unseen.
+  virtual Expected<void> allocate_blocks(std::vector<std::uint32_t> indices) = 0;
+  /// Adds a view's range surface to the blocks that collect_blocks named for it.
+  virtual Expected<void> integrate(const FusionView& view, const std::vector<std::uint32_t>& blocks) = 0;
+  /// The stored blocks; the volume is over.
+  virtual Expected<BlockPool> read_blocks() = 0;
+
+  /// Device seconds per kernel so far; empty where the stages' own times say it all.
+  [[nodiscard]] virtual std::vector<StageTime> kernel_times() const { return {}; }
+};
+
+}  // namespace quorum

@@ -1,0 +1,68 @@
+#include "engine/pipeline/run_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/core/version.h"
+
+namespace quorum {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json options_json(const ReconstructOptions& options) {
+  const auto automatic = [](double length) { return length > 0 ? Json(length) : Json("auto"); };
+  return {{"neighbors", options.views.neighbor_count},
+          {"min_angle_deg", options.views.min_angle_deg},
+          {"max_angle_deg", options.views.max_angle_deg},
+          {"window", options.sweep.window},
+          {"window_model", options.sweep.window_model == WindowModel::kPlane ? "plane" : "axis"},
+          {"threshold", options.sweep.threshold},
+          {"min_votes", options.sweep.min_votes},
+          {"depth_step", automatic(options.sweep.depth_step)},
+          {"step_pixels", options.sweep.step_pixels},
+          {"refinement", options.sweep.refinement},
+          {"mask_below", options.mask_below},
+          {"voxel_size", automatic(options.fusion.voxel_size)},
+          {"truncation", automatic(options.fusion.truncation)},
+          {"max_slope_deg", options.fusion.max_slope_deg},
+          {"feather", options.fusion.feather},
+          {"min_confidence", options.clean.min_confidence},
+          {"min_component", options.clean.min_component_triangles},
+          {"largest_component", options.clean.largest_component}};
+}
+
+}  // namespace
+
+std::string run_json(const Scene& scene, const ReconstructOptions& options, const RunReport& report) {
+  Json stages = Json::array();
+  for (const StageReport& stage : report.stages)
+    stages.push_back(
+        {{"name", stage.name}, {"wall_seconds", stage.wall_seconds}, {"cpu_seconds", stage.cpu_seconds}});
+  Json kernels = Json::array();
+  for (const StageTime& kernel : report.kernels) kernels.push_back({{"name", kernel.name}, {"seconds", kernel.seconds}});
+  Json views = Json::array();
+  for (const ViewReport& view : report.views)
+    views.push_back({{"name", view.name},
+                     {"neighbors", view.neighbors},
+                     {"swept_pixels", view.swept_pixels},
+                     {"depth_samples", view.depth_samples},
+                     {"valid_pixels", view.valid_pixels}});
+  const auto point = [](const Eigen::Vector3d& p) { return Json{p.x(), p.y(), p.z()}; };
+  const Json all = {{"version", version()},
+                    {"device", report.device},
+                    {"scene", {{"views", scene.views.size()}, {"bounds", {point(scene.bounds.low), point(scene.bounds.high)}}}},
+                    {"options", options_json(options)},
+                    {"stages", stages},
+                    {"kernels", kernels},
+                    {"peak_memory_bytes", peak_memory_bytes()},
+                    {"volume",
+                     {{"voxel_size", report.voxel_size}, {"truncation", report.truncation}, {"blocks", report.blocks}}},
+                    {"mesh",
+                     {{"extracted_triangles", report.extracted_triangles},
+                      {"triangles", report.triangles},
+                      {"vertices", report.vertices}}},
+                    {"depth_maps", views}};
+  return all.dump(2) + "\n";
+}
+
+}  // namespace quorum

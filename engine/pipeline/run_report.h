@@ -1,0 +1,58 @@
+// What a run did, for run.json.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/pipeline/backend.h"
+
+namespace quorum {
+
+/// Wall and CPU seconds of one stage of the whole process.
+struct StageReport {
+  std::string name;
+  double wall_seconds = 0.0;
+  double cpu_seconds = 0.0;
+};
+
+struct ViewReport {
+  std::string name;
+  std::vector<std::string> neighbors;
+  std::uint64_t swept_pixels = 0;    ///< pixels whose ray meets the bounds and that no mask leaves out
+  std::uint64_t depth_samples = 0;   ///< pixel · depth samples of the first pass
+  std::uint64_t valid_pixels = 0;    ///< pixels with a depth
+};
+
+struct RunReport {
+  std::string device;
+  std::vector<StageReport> stages;
+  std::vector<StageTime> kernels;
+  std::vector<ViewReport> views;
+  double voxel_size = 0.0;   ///< scene units
+  double truncation = 0.0;   ///< scene units
+  std::uint64_t blocks = 0;
+  std::uint64_t extracted_triangles = 0;  ///< before cleaning
+  std::uint64_t vertices = 0;
+  std::uint64_t triangles = 0;
+};
+
+/// Measures the stage from its making to its end, and adds it to the report (to a stage of that name, if there is one).
+class StageTimer {
+ public:
+  StageTimer(RunReport& report, std::string name);
+  ~StageTimer();
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  RunReport& report_;
+  std::string name_;
+  double wall_start_;
+  double cpu_start_;
+};
+
+/// Largest memory that this process has held so far, bytes.
+std::uint64_t peak_memory_bytes();
+
+}  // namespace quorum

@@ -1,0 +1,64 @@
+#include "engine/pipeline/workspace.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
+
+#include "engine/io/file.h"
+#include "engine/io/image_file.h"
+#include "engine/io/pfm.h"
+#include "engine/io/preview.h"
+
+namespace quorum {
+
+Expected<Workspace> Workspace::open(const std::filesystem::path& folder) {
+  if (auto made = make_folder(folder / "depth"); !made) return std::unexpected(made.error());
+  return Workspace(folder);
+}
+
+std::filesystem::path Workspace::map_path(const std::string& view, const char* map, const char* kind) const {
+  return folder_ / "depth" / fmt::format("{}.{}.{}", view, map, kind);
+}
+
+bool Workspace::has_depth_map(const std::string& view) const {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(map_path(view, "depth", "pfm"), ignored);
+}
+
+Expected<void> Workspace::save_depth_map(const std::string& view, const DepthMap& map) const {
+  Expected<void> saved[5];
+  tbb::parallel_invoke([&] { saved[0] = write_pfm(map_path(view, "correlation", "pfm"), map.correlation); },
+                       [&] { saved[1] = write_pfm(map_path(view, "confidence", "pfm"), map.confidence); },
+                       [&] { saved[2] = write_png(map_path(view, "correlation", "png"), color_map_unit(map.correlation)); },
+                       [&] { saved[3] = write_png(map_path(view, "confidence", "png"), color_map_unit(map.confidence)); },
+                       [&] { saved[4] = write_png(map_path(view, "depth", "png"), color_map_depth(map.depth)); });
+  for (const auto& result : saved)
+    if (!result) return result;
+  return write_pfm(map_path(view, "depth", "pfm"), map.depth);
+}
+
+Expected<DepthMap> Workspace::load_depth_map(const std::string& view, int width, int height) const {
+  DepthMap map;
+  const auto load = [&](const char* name, Grid<float>& grid) -> Expected<void> {
+    const auto path = map_path(view, name, "pfm");
+    auto loaded = read_pfm(path);
+    if (!loaded) return std::unexpected(loaded.error());
+    if (loaded->width != width || loaded->height != height)
+      return failure(ErrorKind::kInput,
+                     fmt::format("{}: is {} x {}, but the view is {} x {}; run `quorum depth` on this scene again",
+                                 path.string(), loaded->width, loaded->height, width, height));
+    grid = std::move(*loaded);
+    return {};
+  };
+  for (const auto& result : {load("depth", map.depth), load("correlation", map.correlation),
+                             load("confidence", map.confidence)})
+    if (!result) return std::unexpected(result.error());
+  return map;
+}
+
+void Workspace::remove_depth_map(const std::string& view) const {
+  std::error_code ignored;
+  for (const char* map : {"depth", "correlation", "confidence"})
+    for (const char* kind : {"pfm", "png"}) std::filesystem::remove(map_path(view, map, kind), ignored);
+}
+
+}  // namespace quorum

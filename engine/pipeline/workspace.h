@@ -1,0 +1,41 @@
+// The output folder of a run: depth maps per view, the mesh, the report.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "engine/core/error.h"
+#include "engine/depth/depth_map.h"
+
+namespace quorum {
+
+/// Files under one folder; every file appears whole or not at all.
+///   depth/NAME.depth.pfm .correlation.pfm .confidence.pfm   float maps
+///   depth/NAME.depth.png .correlation.png .confidence.png   previews
+///   mesh.ply, run.json
+class Workspace {
+ public:
+  /// Makes the folder. Fails (kInput) if it can't be made or written to.
+  static Expected<Workspace> open(const std::filesystem::path& folder);
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] std::filesystem::path mesh_path() const { return folder_ / "mesh.ply"; }
+  [[nodiscard]] std::filesystem::path report_path() const { return folder_ / "run.json"; }
+
+  /// True if a depth map of this view was saved.
+  [[nodiscard]] bool has_depth_map(const std::string& view) const;
+  /// Saves maps and previews. The depth itself comes last, so has_depth_map means that all is there. Fails (kInput).
+  [[nodiscard]] Expected<void> save_depth_map(const std::string& view, const DepthMap& map) const;
+  /// Loads the maps of a view and checks that they fit its size. Fails (kInput).
+  [[nodiscard]] Expected<DepthMap> load_depth_map(const std::string& view, int width, int height) const;
+  /// Removes what is left of a view from an earlier run.
+  void remove_depth_map(const std::string& view) const;
+
+ private:
+  explicit Workspace(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  [[nodiscard]] std::filesystem::path map_path(const std::string& view, const char* map, const char* kind) const;
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace quorum

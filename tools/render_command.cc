@@ -1,0 +1,58 @@
+// quorum render: a picture of a mesh from one of the scene's cameras.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/io/image_file.h"
+#include "engine/io/middlebury.h"
+#include "engine/io/ply.h"
+#include "engine/mesh/render.h"
+#include "tools/command.h"
+
+namespace quorum {
+namespace {
+
+struct RenderArguments {
+  std::filesystem::path mesh;
+  std::filesystem::path scene;
+  std::string view;
+  std::filesystem::path output;
+  std::string shading = "shaded";
+};
+
+Expected<void> render_file(const RenderArguments& arguments) {
+  using Shading = RenderOptions::Shading;
+  RenderOptions options;
+  options.shading = arguments.shading == "color"        ? Shading::kColor
+                    : arguments.shading == "confidence" ? Shading::kConfidence
+                    : arguments.shading == "normal"     ? Shading::kNormal
+                                                        : Shading::kShaded;
+  const auto scene = read_middlebury(arguments.scene, std::nullopt, {});
+  if (!scene) return std::unexpected(scene.error());
+  const auto view = std::find_if(scene->views.begin(), scene->views.end(),
+                                 [&](const View& candidate) { return candidate.name == arguments.view; });
+  if (view == scene->views.end())
+    return failure(ErrorKind::kUsage, fmt::format("--view {}: no such view; there are {} to {}", arguments.view,
+                                                  scene->views.front().name, scene->views.back().name));
+  const auto mesh = read_ply(arguments.mesh);
+  if (!mesh) return std::unexpected(mesh.error());
+  const auto image = render_mesh(*mesh, view->camera, view->width, view->height, options);
+  if (!image) return std::unexpected(image.error());
+  return write_png(arguments.output, *image);
+}
+
+}  // namespace
+
+int render_command(int argc, char** argv) {
+  CLI::App app("Draw a mesh as one of the scene's cameras sees it.", "render");
+  RenderArguments arguments;
+  app.add_option("mesh", arguments.mesh, "PLY file")->required();
+  app.add_option("--scene", arguments.scene, "Folder of the scene")->required();
+  app.add_option("--view", arguments.view, "Name of the view: its image file without extension")->required();
+  app.add_option("-o,--output", arguments.output, "PNG file")->required();
+  app.add_option("--shading", arguments.shading, "What to show")
+      ->check(CLI::IsMember({"shaded", "color", "confidence", "normal"}))->capture_default_str();
+  return run_command(app, argc, argv, [&] { return render_file(arguments); });
+}
+
+}  // namespace quorum

@@ -1,0 +1,45 @@
+// The arguments of the commands that run the pipeline (reconstruct, depth, fuse).
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/pipeline/reconstruct.h"
+#include "tools/command.h"
+
+namespace quorum {
+
+/// As typed; resolve() turns them into what the pipeline takes.
+struct RunArguments {
+  std::filesystem::path scene;
+  std::filesystem::path output;
+  std::vector<std::string> bounds;
+  std::filesystem::path masks;
+  std::string device = "auto";
+  int threads = 0;
+  std::string simd = "auto";
+  std::vector<int> tile = {64, 16};
+  std::string window_model = "plane";
+  std::string depth_step = "auto";
+  std::string voxel_size = "auto";
+  std::string truncation = "auto";
+  bool quiet = false;
+  bool json = false;
+  ReconstructOptions options;
+
+  void add_scene_and_output(CLI::App& app);
+  void add_depth_options(CLI::App& app);
+  void add_fusion_options(CLI::App& app);
+  void add_device_and_output_options(CLI::App& app);
+};
+
+/// One of the pipeline's stages, or several.
+using PipelineStages = std::function<Expected<void>(const Scene&, const ReconstructOptions&, Backend&, const Workspace&,
+                                                    Progress&, RunReport&)>;
+
+/// Reads the scene, opens the device and the workspace, runs the stages and writes run.json. Fails as they do.
+Expected<void> run_pipeline(RunArguments& arguments, const PipelineStages& stages);
+
+}  // namespace quorum
