@@ -6,7 +6,8 @@
 
 namespace quorum {
 
-/// A number of work items per submission that follows what the device was measured to manage. Results do not depend on it.
+/// A number of work items per submission that follows what the device was measured to manage. Results do not depend on
+/// it.
 class BatchSize {
  public:
   static constexpr double kTargetSeconds = 0.08;

@@ -10,8 +10,10 @@
 namespace quorum {
 namespace {
 
-constexpr std::uint32_t kStripRows = 16;           // pixels of a column that one invocation of sweep_depth takes
-constexpr std::int64_t kNccValues = 16LL << 20;    // room for a batch: 64 MiB, below any maxStorageBufferRange
+constexpr std::uint32_t kStripRows = 16;         // pixels of a column that one invocation of sweep_depth takes
+constexpr std::int64_t kNccValues = 16LL << 20;  // room for a batch: 64 MiB, below any maxStorageBufferRange
+constexpr std::int64_t kMaxSlots = 1024;  // with 32 neighbors: 32,768 rounds of vote_depth's loops. lavapipe stops the
+                                          // loops of an invocation after 65,535 rounds, without a word
 constexpr std::int64_t kLeastWindows = 1LL << 14;
 constexpr std::int64_t kStartWindows = 1LL << 18;
 
@@ -136,9 +138,10 @@ Expected<Grid<PixelVote>> DepthStage::run_pass(const SweepTask& task, const Inpu
     const auto [first_slot, last_slot] = slots_of_rows(ranges, row, rows, stride, !sweep);
     for (int slot = first_slot; slot <= last_slot;) {
       const std::int64_t windows_of_slot = row_windows * rows;
-      const Batch batch{row, rows, slot,
-                        static_cast<int>(std::clamp<std::int64_t>(
-                            std::min(size.items(), kNccValues) / windows_of_slot, 1, last_slot - slot + 1))};
+      const Batch batch{
+          row, rows, slot,
+          static_cast<int>(std::clamp<std::int64_t>(std::min(size.items(), kNccValues) / windows_of_slot, 1,
+                                                    std::min<std::int64_t>(last_slot - slot + 1, kMaxSlots)))};
       const std::int64_t strips = sweep ? (rows + kStripRows - 1) / kStripRows : rows;
       commands_->region(sweep ? "sweep_depth" : "refine_depth");
       for (std::size_t neighbor = 0; neighbor < inputs.neighbors.size(); ++neighbor)

@@ -1,5 +1,5 @@
-// Depth maps on a Vulkan device: sweep_depth and vote_depth over all planes, then refine_depth and vote_depth around each
-// pixel's best one.
+// Depth maps on a Vulkan device: sweep_depth and vote_depth over all planes, then refine_depth and vote_depth around
+// each pixel's best one.
 #pragma once
 
 #include <optional>
@@ -48,7 +48,7 @@ class DepthStage {
   Commands* commands_;
   Kernel vote_depth_;
   std::optional<Kernels> kernels_;
-  BatchSize sweep_batch_;   // windows per submission
+  BatchSize sweep_batch_;  // windows per submission
   BatchSize refine_batch_;
 };
 

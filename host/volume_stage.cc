@@ -15,7 +15,8 @@ namespace quorum {
 namespace {
 
 constexpr std::size_t kBlockBytes = kBlockVoxels * sizeof(Voxel);
-constexpr std::size_t kMaxDispatchBlocks = 16384;  // 8 million voxels: some 10 ms, and within any maxComputeWorkGroupCount
+constexpr std::size_t kMaxDispatchBlocks =
+    16384;  // 8 million voxels: some 10 ms, and within any maxComputeWorkGroupCount
 
 }  // namespace
 
@@ -28,9 +29,9 @@ Expected<VolumeStage> VolumeStage::create(const Device& device, Commands& comman
   if (!collect_blocks) return std::unexpected(collect_blocks.error());
   auto integrate = Kernel::create(device, find_kernel("integrate"));
   if (!integrate) return std::unexpected(integrate.error());
-  return VolumeStage(device, commands,
-                     Kernels{std::move(*range_surface), std::move(*weigh_surface), std::move(*collect_blocks),
-                             std::move(*integrate)});
+  return VolumeStage(
+      device, commands,
+      Kernels{std::move(*range_surface), std::move(*weigh_surface), std::move(*collect_blocks), std::move(*integrate)});
 }
 
 void VolumeStage::begin(const VoxelGrid& grid, const FusionOptions& options) {
@@ -81,8 +82,8 @@ Expected<std::vector<std::uint32_t>> VolumeStage::collect_blocks(const FusionVie
 Expected<void> VolumeStage::allocate_blocks(std::vector<std::uint32_t> indices) {
   indices_ = std::move(indices);
   pool_.clear();
-  blocks_per_buffer_ =
-      std::max<std::size_t>(1, std::min(device_->info().max_storage_buffer_range, device_->info().max_allocation) / kBlockBytes);
+  blocks_per_buffer_ = std::max<std::size_t>(
+      1, std::min(device_->info().max_storage_buffer_range, device_->info().max_allocation) / kBlockBytes);
   for (std::size_t first = 0; first < indices_.size(); first += blocks_per_buffer_) {
     const std::size_t count = std::min(blocks_per_buffer_, indices_.size() - first);
     auto buffer = Buffer::create(*device_, count * kBlockBytes);
@@ -111,11 +112,10 @@ Expected<void> VolumeStage::integrate(const FusionView& view, const std::vector<
   commands_->region("integrate");
   for (std::size_t begin = 0; begin < list.size();) {
     const std::size_t buffer = list[begin].slot / blocks_per_buffer_;
-    const auto buffer_end = std::partition_point(list.begin() + static_cast<std::ptrdiff_t>(begin), list.end(), [&](const BlockSlot& entry) {
-      return entry.slot < (buffer + 1) * blocks_per_buffer_;
-    });
-    const std::size_t end =
-        std::min(static_cast<std::size_t>(buffer_end - list.begin()), begin + kMaxDispatchBlocks);
+    const auto buffer_end =
+        std::partition_point(list.begin() + static_cast<std::ptrdiff_t>(begin), list.end(),
+                             [&](const BlockSlot& entry) { return entry.slot < (buffer + 1) * blocks_per_buffer_; });
+    const std::size_t end = std::min(static_cast<std::size_t>(buffer_end - list.begin()), begin + kMaxDispatchBlocks);
     params.list_begin = static_cast<int>(begin);
     params.pool_begin = static_cast<int>(buffer * blocks_per_buffer_);
     commands_->dispatch(kernels_.integrate, {kBlockVoxels, static_cast<std::int64_t>(end - begin)}, params,

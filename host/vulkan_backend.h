@@ -35,7 +35,10 @@ class VulkanBackend : public Backend {
  private:
   VulkanBackend(std::unique_ptr<Device> device, std::unique_ptr<Commands> commands, DepthStage depth,
                 VolumeStage volume)
-      : device_(std::move(device)), commands_(std::move(commands)), depth_(std::move(depth)), volume_(std::move(volume)) {}
+      : device_(std::move(device)),
+        commands_(std::move(commands)),
+        depth_(std::move(depth)),
+        volume_(std::move(volume)) {}
 
   std::unique_ptr<Device> device_;
   std::unique_ptr<Commands> commands_;

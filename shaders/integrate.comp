@@ -54,7 +54,7 @@ void main() {
   precise float ray_length = ray_squared * reciprocal_sqrt(ray_squared);
   precise float distance =
       ((interpolate_cell(split_03, second, depths, fraction) - pz) * ray_length) * p.inverse_truncation;
-  if (!(distance >= -1.0 && distance <= 1.0)) return;
+  if (!(distance >= -kBehindShare && distance <= 1.0)) return;
   float scale = float(kDistanceScale);
   precise float scaled_distance = distance * scale + (scale + 0.5);
   int signed_distance = int(scaled_distance) - kDistanceScale;

@@ -70,6 +70,6 @@ void main() {
   precise float ray_squared = rx * rx + (ry * ry + 1.0);
   precise float cosine = (d * reciprocal_sqrt(normal_squared)) * reciprocal_sqrt(ray_squared);
   precise float ramp = float(border_distance(x, y) + 1) * reciprocal(float(p.feather + 1));
-  precise float weight = ((confidence[pixel] * cosine) * ramp) * float(kWeightScale) + 0.5;
+  precise float weight = ((confidence[pixel] * cosine) * (ramp * ramp)) * float(kWeightScale) + 0.5;
   weights[pixel] = uint(clamp(int(weight), 1, kWeightScale));
 }

@@ -33,8 +33,10 @@ void ConsoleProgress::stage(std::string_view name, int steps) {
   steps_ = steps;
   done_ = 0;
   if (quiet_) return;
-  if (terminal_) draw();
-  else fmt::print(stderr, "{} ({})\n", name_, steps_);
+  if (terminal_)
+    draw();
+  else
+    fmt::print(stderr, "{} ({})\n", name_, steps_);
 }
 
 void ConsoleProgress::step() {

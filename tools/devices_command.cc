@@ -49,16 +49,20 @@ Expected<void> list(const std::string& request, bool json) {
   const std::string chosen = choice->device ? choice->device->name : CpuBackend().description();
   if (json) {
     nlohmann::ordered_json all = {{"devices", nlohmann::ordered_json::array()}};
-    for (const DeviceInfo& device : devices.value_or(std::vector<DeviceInfo>{})) all["devices"].push_back(device_json(device));
+    for (const DeviceInfo& device : devices.value_or(std::vector<DeviceInfo>{}))
+      all["devices"].push_back(device_json(device));
     all["cpu"] = CpuBackend().description();
     all["chosen"] = chosen;
     all["reason"] = choice->reason;
     fmt::print("{}\n", all.dump(2));
     return {};
   }
-  if (!devices) fmt::print("no Vulkan devices: {}\n", devices.error().message);
-  else if (devices->empty()) fmt::print("no Vulkan devices: the Vulkan loader finds no driver\n");
-  else for (const DeviceInfo& device : *devices) print_device(device);
+  if (!devices)
+    fmt::print("no Vulkan devices: {}\n", devices.error().message);
+  else if (devices->empty())
+    fmt::print("no Vulkan devices: the Vulkan loader finds no driver\n");
+  else
+    for (const DeviceInfo& device : *devices) print_device(device);
   fmt::print("cpu: {}\n", CpuBackend().description());
   fmt::print("--device {} uses: {} ({})\n", request, chosen, choice->reason);
   return {};
@@ -68,8 +72,14 @@ Expected<void> list(const std::string& request, bool json) {
 
 Expected<void> list(const std::string&, bool json) {
   const std::string cpu = CpuBackend().description();
-  if (json) fmt::print("{}\n", nlohmann::ordered_json{{"devices", nlohmann::ordered_json::array()}, {"cpu", cpu}, {"chosen", cpu}, {"reason", "built without Vulkan"}}.dump(2));
-  else fmt::print("cpu: {}\nthis build has no Vulkan\n", cpu);
+  if (json)
+    fmt::print("{}\n", nlohmann::ordered_json{{"devices", nlohmann::ordered_json::array()},
+                                              {"cpu", cpu},
+                                              {"chosen", cpu},
+                                              {"reason", "built without Vulkan"}}
+                           .dump(2));
+  else
+    fmt::print("cpu: {}\nthis build has no Vulkan\n", cpu);
   return {};
 }
 

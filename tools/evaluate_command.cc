@@ -22,7 +22,8 @@ struct EvaluateArguments {
 void print_json(const Evaluation& result, const EvaluateOptions& options) {
   nlohmann::ordered_json scores = nlohmann::ordered_json::array();
   for (const FScore& score : result.f_scores)
-    scores.push_back({{"distance", score.distance}, {"precision", score.precision}, {"recall", score.recall}, {"f", score.f}});
+    scores.push_back(
+        {{"distance", score.distance}, {"precision", score.precision}, {"recall", score.recall}, {"f", score.f}});
   const nlohmann::ordered_json all = {{"share", options.share},
                                       {"accuracy", result.accuracy},
                                       {"median_accuracy", result.median_accuracy},
@@ -37,10 +38,11 @@ void print_json(const Evaluation& result, const EvaluateOptions& options) {
 void print_table(const Evaluation& result, const EvaluateOptions& options) {
   fmt::print("accuracy at {:.0f} %     {:.3f} mm   (median {:.3f}, mean {:.3f})\n", options.share * 100,
              result.accuracy * 1e3, result.median_accuracy * 1e3, result.mean_accuracy * 1e3);
-  fmt::print("completeness        {:.1f} %      (within {:.3f} mm)\n", result.completeness * 100, options.threshold * 1e3);
+  fmt::print("completeness        {:.1f} %      (within {:.3f} mm)\n", result.completeness * 100,
+             options.threshold * 1e3);
   for (const FScore& score : result.f_scores)
-    fmt::print("at {:.3f} mm         precision {:.3f}, recall {:.3f}, F {:.3f}\n", score.distance * 1e3, score.precision,
-               score.recall, score.f);
+    fmt::print("at {:.3f} mm         precision {:.3f}, recall {:.3f}, F {:.3f}\n", score.distance * 1e3,
+               score.precision, score.recall, score.f);
 }
 
 Expected<void> evaluate_files(EvaluateArguments& arguments) {
@@ -60,8 +62,10 @@ Expected<void> evaluate_files(EvaluateArguments& arguments) {
   if (!truth) return std::unexpected(truth.error());
   const auto result = evaluate(*mesh, *truth, arguments.options);
   if (!result) return std::unexpected(result.error());
-  if (arguments.json) print_json(*result, arguments.options);
-  else print_table(*result, arguments.options);
+  if (arguments.json)
+    print_json(*result, arguments.options);
+  else
+    print_table(*result, arguments.options);
   return {};
 }
 
@@ -72,12 +76,14 @@ int evaluate_command(int argc, char** argv) {
   EvaluateArguments arguments;
   app.add_option("mesh", arguments.mesh, "PLY file of the reconstruction")->required();
   app.add_option("truth", arguments.truth, "PLY file of the truth")->required();
-  app.add_option("--share", arguments.options.share, "Accuracy: the distance that holds this share of the reconstruction")
+  app.add_option("--share", arguments.options.share,
+                 "Accuracy: the distance that holds this share of the reconstruction")
       ->capture_default_str();
   app.add_option("--threshold", arguments.threshold, "Completeness: share of the truth within this distance")
       ->capture_default_str();
   app.add_option("--distances", arguments.distances, "Precision, recall and F at these distances")
-      ->delimiter(',')->capture_default_str();
+      ->delimiter(',')
+      ->capture_default_str();
   app.add_option("--samples", arguments.options.samples, "Points taken from each surface")->capture_default_str();
   app.add_flag("--json", arguments.json, "Print JSON, in scene units");
   return run_command(app, argc, argv, [&] { return evaluate_files(arguments); });

@@ -26,8 +26,9 @@ Expected<std::unique_ptr<Backend>> open_backend(const std::string& request, cons
 
 Expected<std::unique_ptr<Backend>> open_backend(const std::string& request, const CpuSweepOptions& cpu) {
   if (request == "auto" || request == "cpu") return std::make_unique<CpuBackend>(cpu);
-  return failure(ErrorKind::kNoDevice,
-                 fmt::format("--device {}: this build has no Vulkan; give cpu, or build with QUORUM_VULKAN=ON", request));
+  return failure(
+      ErrorKind::kNoDevice,
+      fmt::format("--device {}: this build has no Vulkan; give cpu, or build with QUORUM_VULKAN=ON", request));
 }
 
 #endif

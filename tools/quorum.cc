@@ -45,7 +45,9 @@ int main(int argc, char** argv) {
   }
   for (const Command& command : kCommands)
     if (word == command.name) return command.run(argc - 1, argv + 1);
-  if (word.empty()) print_help(stderr);
-  else fmt::print(stderr, "quorum: unknown command {}; see quorum --help\n", word);
+  if (word.empty())
+    print_help(stderr);
+  else
+    fmt::print(stderr, "quorum: unknown command {}; see quorum --help\n", word);
   return static_cast<int>(quorum::ErrorKind::kUsage);
 }

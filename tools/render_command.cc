@@ -51,7 +51,8 @@ int render_command(int argc, char** argv) {
   app.add_option("--view", arguments.view, "Name of the view: its image file without extension")->required();
   app.add_option("-o,--output", arguments.output, "PNG file")->required();
   app.add_option("--shading", arguments.shading, "What to show")
-      ->check(CLI::IsMember({"shaded", "color", "confidence", "normal"}))->capture_default_str();
+      ->check(CLI::IsMember({"shaded", "color", "confidence", "normal"}))
+      ->capture_default_str();
   return run_command(app, argc, argv, [&] { return render_file(arguments); });
 }
 

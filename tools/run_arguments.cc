@@ -39,21 +39,26 @@ Expected<std::optional<Bounds>> parse_bounds(const std::vector<std::string>& arg
     }
   }
   if (numbers.size() != 6)
-    return std::unexpected(usage(fmt::format("--bounds: expected six numbers x0 y0 z0 x1 y1 z1, found {}", numbers.size())));
+    return std::unexpected(
+        usage(fmt::format("--bounds: expected six numbers x0 y0 z0 x1 y1 z1, found {}", numbers.size())));
   return Bounds{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
 }
 
 Expected<CpuSweepOptions> cpu_options(const RunArguments& arguments) {
   CpuSweepOptions cpu;
-  if (arguments.simd == "baseline") cpu.simd = SimdLevel::kBaseline;
-  else if (arguments.simd == "avx2") cpu.simd = SimdLevel::kAvx2;
-  else if (arguments.simd == "avx512") cpu.simd = SimdLevel::kAvx512;
+  if (arguments.simd == "baseline")
+    cpu.simd = SimdLevel::kBaseline;
+  else if (arguments.simd == "avx2")
+    cpu.simd = SimdLevel::kAvx2;
+  else if (arguments.simd == "avx512")
+    cpu.simd = SimdLevel::kAvx512;
   if (cpu.simd > best_simd_level())
     return std::unexpected(usage(fmt::format("--simd {}: this processor does not have it; give auto", arguments.simd)));
   cpu.tile_width = arguments.tile[0];
   cpu.tile_height = arguments.tile[1];
   if (cpu.tile_width < 8 || cpu.tile_width > 64 || cpu.tile_height < 1 || cpu.tile_height > 64)
-    return std::unexpected(usage(fmt::format("--tile {} {}: give 8 to 64 and 1 to 64 pixels", cpu.tile_width, cpu.tile_height)));
+    return std::unexpected(
+        usage(fmt::format("--tile {} {}: give 8 to 64 and 1 to 64 pixels", cpu.tile_width, cpu.tile_height)));
   return cpu;
 }
 
@@ -79,67 +84,95 @@ Expected<void> resolve(RunArguments& arguments) {
 }  // namespace
 
 void RunArguments::add_scene_and_output(CLI::App& app) {
-  app.add_option("scene", scene, "Folder with the photographs and their cameras (Middlebury: *_par.txt, images, README.txt)")
+  app.add_option("scene", scene,
+                 "Folder with the photographs and their cameras (Middlebury: *_par.txt, images, README.txt)")
       ->required();
   app.add_option("-o,--output", output, "Folder for the results; made if missing")->required();
-  app.add_option("--bounds", bounds, "Box that holds the object, x0 y0 z0 x1 y1 z1 [the box in README.txt]")->expected(1, 6);
+  app.add_option("--bounds", bounds, "Box that holds the object, x0 y0 z0 x1 y1 z1 [the box in README.txt]")
+      ->expected(1, 6);
   app.add_option("--masks", masks, "Folder with a mask per image (a.png.png or a.png); black is left out");
 }
 
 void RunArguments::add_depth_options(CLI::App& app) {
   const std::string group = "Depth maps (the paper, sections 2.1 and 4.1)";
   app.add_option("--neighbors", options.views.neighbor_count, "Views that each view is compared with")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--min-angle", options.views.min_angle_deg, "Least angle between compared views, degrees")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--max-angle", options.views.max_angle_deg, "Largest angle to a compared view, degrees")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--window", options.sweep.window, "Side of the compared windows, pixels: 3, 5 … 15")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--window-model", window_model,
                  "plane: windows follow the plane of the tested depth; axis: the paper's axis-aligned windows")
-      ->check(CLI::IsMember({"plane", "axis"}))->capture_default_str()->group(group);
+      ->check(CLI::IsMember({"plane", "axis"}))
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--threshold", options.sweep.threshold, "Correlation from which on a view votes for a depth")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--min-votes", options.sweep.min_votes, "Votes that make a depth valid")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--depth-step", depth_step, "Distance of depth samples, such as 2.5mm; auto: from --step-pixels")
-      ->capture_default_str()->group(group);
-  app.add_option("--step-pixels", options.sweep.step_pixels, "Automatic step: largest motion in a compared view, pixels")
-      ->capture_default_str()->group(group);
-  app.add_option("--refinement", options.sweep.refinement, "The second pass divides the step by this; 1: no second pass")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--step-pixels", options.sweep.step_pixels,
+                 "Automatic step: largest motion in a compared view, pixels")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--refinement", options.sweep.refinement,
+                 "The second pass divides the step by this; 1: no second pass")
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--mask-below", options.mask_below,
                  "Leave out a background darker than this, 0 to 1 (0.19 for the dino); 0: keep all")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
 }
 
 void RunArguments::add_fusion_options(CLI::App& app) {
   const std::string group = "Fusion and mesh (the paper, section 2.2)";
   app.add_option("--voxel-size", voxel_size, "Edge of a voxel, such as 0.5mm; auto: a pixel's footprint")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--truncation", truncation, "Distance from a surface up to which voxels are filled; auto: 4 voxels")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--max-slope", options.fusion.max_slope_deg, "Steepest triangle of a depth map, degrees")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--feather", options.fusion.feather, "Pixels over which weights rise from a border")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--min-confidence", options.clean.min_confidence,
                  "Drop triangles of less; 1 is one view that is fully confident")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--min-component", options.clean.min_component_triangles, "Drop pieces of fewer triangles")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_flag("--largest-component", options.clean.largest_component, "Keep the largest piece alone")->group(group);
 }
 
 void RunArguments::add_device_and_output_options(CLI::App& app) {
   const std::string group = "Device and output (results are the same on every device)";
   app.add_option("--device", device, "auto, cpu, an index or a part of a name of `quorum devices`")
-      ->capture_default_str()->group(group);
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--threads", threads, "CPU threads; 0: all")->capture_default_str()->group(group);
-  app.add_option("--tile", tile, "Tile of the CPU sweep, width height in pixels")->expected(2)->capture_default_str()->group(group);
+  app.add_option("--tile", tile, "Tile of the CPU sweep, width height in pixels")
+      ->expected(2)
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--simd", simd, "Instructions of the CPU sweep")
-      ->check(CLI::IsMember({"auto", "baseline", "avx2", "avx512"}))->capture_default_str()->group(group);
+      ->check(CLI::IsMember({"auto", "baseline", "avx2", "avx512"}))
+      ->capture_default_str()
+      ->group(group);
   app.add_flag("--quiet", quiet, "Print nothing but errors")->group(group);
   app.add_flag("--json", json, "Print run.json to standard output at the end, and nothing else there")->group(group);
 }

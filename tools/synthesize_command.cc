@@ -35,10 +35,12 @@ int synthesize_command(int argc, char** argv) {
   app.add_option("output", folder, "Folder for the scene; made if missing")->required();
   app.add_option("--views", options.views, "Photographs to take")->capture_default_str();
   app.add_option("--cameras", path, "Where the cameras stand")
-      ->check(CLI::IsMember({"ring", "hemisphere"}))->capture_default_str();
+      ->check(CLI::IsMember({"ring", "hemisphere"}))
+      ->capture_default_str();
   app.add_option("--width", options.width, "Width of the photographs, pixels; the height is 3/4 of it")
       ->capture_default_str();
-  app.add_option("--noise", options.noise, "Standard deviation of the sensor noise, gray levels")->capture_default_str();
+  app.add_option("--noise", options.noise, "Standard deviation of the sensor noise, gray levels")
+      ->capture_default_str();
   app.add_option("--texture", options.texture, "Strength of the stone's texture; 0: plain plaster")
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Same seed, same bytes")->capture_default_str();

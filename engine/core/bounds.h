@@ -17,9 +17,7 @@ struct Bounds {
   [[nodiscard]] Eigen::Vector3d corner(int index) const {
     return {index & 1 ? high.x() : low.x(), index & 2 ? high.y() : low.y(), index & 4 ? high.z() : low.z()};
   }
-  [[nodiscard]] Bounds expanded(double margin) const {
-    return {low.array() - margin, high.array() + margin};
-  }
+  [[nodiscard]] Bounds expanded(double margin) const { return {low.array() - margin, high.array() + margin}; }
 };
 
 }  // namespace quorum

@@ -1,4 +1,5 @@
-// Checks of what only this program itself can get wrong. A failed check prints both values with file and line, and stops.
+// Checks of what only this program itself can get wrong. A failed check prints both values with file and line, and
+// stops.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,11 +18,11 @@ template <typename A, typename B>
 
 }  // namespace quorum
 
-#define QUORUM_CHECK_OP(a, op, b)                                                   \
-  do {                                                                              \
-    const auto& check_a = (a);                                                      \
-    const auto& check_b = (b);                                                      \
-    if (!(check_a op check_b)) [[unlikely]]                                         \
+#define QUORUM_CHECK_OP(a, op, b)                                                    \
+  do {                                                                               \
+    const auto& check_a = (a);                                                       \
+    const auto& check_b = (b);                                                       \
+    if (!(check_a op check_b)) [[unlikely]]                                          \
       ::quorum::fail_check(__FILE__, __LINE__, #a " " #op " " #b, check_a, check_b); \
   } while (false)
 

@@ -1,4 +1,5 @@
-// What the outside can cause (files, options, memory, devices), as a value that travels up and gains a clause per layer.
+// What the outside can cause (files, options, memory, devices), as a value that travels up and gains a clause per
+// layer.
 #pragma once
 
 #include <expected>
@@ -10,12 +11,12 @@ namespace quorum {
 
 /// Kinds of failure; the value is the exit code of the command line (README, "Exit codes").
 enum class ErrorKind {
-  kDevice = 1,    ///< a device failed while it worked
-  kUsage = 2,     ///< the command line or an option is wrong
-  kInput = 3,     ///< a file or folder is missing, malformed, or can't be written
-  kNoDevice = 4,  ///< the wanted device or the Vulkan loader is not there
-  kMemory = 5,    ///< the work does not fit the memory
-  kStopped = 143, ///< SIGTERM or SIGINT asked to stop
+  kDevice = 1,     ///< a device failed while it worked
+  kUsage = 2,      ///< the command line or an option is wrong
+  kInput = 3,      ///< a file or folder is missing, malformed, or can't be written
+  kNoDevice = 4,   ///< the wanted device or the Vulkan loader is not there
+  kMemory = 5,     ///< the work does not fit the memory
+  kStopped = 143,  ///< SIGTERM or SIGINT asked to stop
 };
 
 /// One failure. message is one line: the place, what is wrong, and the remedy.
@@ -24,9 +25,7 @@ struct Error {
   std::string message;
 
   /// The same failure with a clause in front: "reading cameras: temple_par.txt:3: expected 22 fields, found 21".
-  [[nodiscard]] Error within(std::string_view clause) const {
-    return {kind, std::string(clause) + ": " + message};
-  }
+  [[nodiscard]] Error within(std::string_view clause) const { return {kind, std::string(clause) + ": " + message}; }
 };
 
 template <typename T>

@@ -81,8 +81,8 @@ Expected<DepthPlanes> make_depth_planes(const Scene& scene, int reference, const
   return planes;
 }
 
-Grid<PlaneRange> make_plane_ranges(const View& view, const Bounds& bounds, const Mask& mask,
-                                   const DepthPlanes& planes, int radius) {
+Grid<PlaneRange> make_plane_ranges(const View& view, const Bounds& bounds, const Mask& mask, const DepthPlanes& planes,
+                                   int radius) {
   std::vector<double> first_pass;
   for (std::size_t plane = 0; plane < planes.depth.size(); plane += static_cast<std::size_t>(planes.refinement))
     first_pass.push_back(planes.depth[plane]);

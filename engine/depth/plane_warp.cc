@@ -13,7 +13,8 @@ PlaneWarp make_plane_warp(const Camera& reference, const Camera& neighbor) {
       neighbor.intrinsics * (neighbor.translation - neighbor_from_reference * reference.translation);
   PlaneWarp warp;
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) warp.rotation[3 * row + column] = static_cast<float>(rotation(row, column));
+    for (int column = 0; column < 3; ++column)
+      warp.rotation[3 * row + column] = static_cast<float>(rotation(row, column));
     warp.offset[row] = static_cast<float>(offset(row));
   }
   return warp;

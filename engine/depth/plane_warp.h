@@ -9,8 +9,8 @@ namespace quorum {
 /// The warp from a reference view to a neighbor, computed in double and rounded once.
 PlaneWarp make_plane_warp(const Camera& reference, const Camera& neighbor);
 
-/// A position in a neighbor image, in 1/256 pixel. inside: the image has it, and the point is before the camera; u and v
-/// are 0 otherwise.
+/// A position in a neighbor image, in 1/256 pixel. inside: the image has it, and the point is before the camera; u and
+/// v are 0 otherwise.
 struct Projection {
   int u = 0;
   int v = 0;

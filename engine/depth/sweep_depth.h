@@ -8,7 +8,8 @@
 namespace quorum {
 
 /// NCC of the window around reference pixel (x, y) on a plane against one neighbor; kNoNcc where the neighbor does not
-/// see the whole window. One window at a time, in the words of the paper: what the fast sweep and the kernels must equal.
+/// see the whole window. One window at a time, in the words of the paper: what the fast sweep and the kernels must
+/// equal.
 float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane);
 
 /// Below every threshold: the neighbor does not see the window.

@@ -1,7 +1,8 @@
 // How a tile is swept: per plane and neighbor, rows of the tile (with the windows' border) are warped one after the
 // other; each row's samples and products are summed along the row over the window's width, and these sums down the
-// column by adding the new row and taking off the one that left the window. All loops run along a row over plain arrays,
-// so that the compiler vectorizes them; the whole is compiled for three instruction sets and chosen at run time.
+// column by adding the new row and taking off the one that left the window. All loops run along a row over plain
+// arrays, so that the compiler vectorizes them; the whole is compiled for three instruction sets and chosen at run
+// time.
 #include "engine/depth/sweep_tile.h"
 
 #include <algorithm>
@@ -15,8 +16,8 @@
 namespace quorum {
 namespace {
 
-constexpr int kMaxBorder = 14;                            // 2 * radius of the largest window
-constexpr int kColumns = kMaxTileSide + kMaxBorder + 2;   // 80: whole vectors
+constexpr int kMaxBorder = 14;                           // 2 * radius of the largest window
+constexpr int kColumns = kMaxTileSide + kMaxBorder + 2;  // 80: whole vectors
 constexpr int kRows = kMaxTileSide + kMaxBorder;
 constexpr int kMaxWindow = 15;
 
@@ -25,17 +26,17 @@ enum Quantity { kRed, kGreen, kBlue, kSquares, kProducts, kQuantities };
 
 /// Everything a thread needs to sweep a tile; arrays of the tile's reference part first, of the current row after.
 struct Workspace {
-  std::int32_t reference[3][kRows][kColumns];            // samples of the tile and its border
+  std::int32_t reference[3][kRows][kColumns];  // samples of the tile and its border
   std::int32_t reference_sum[3][kMaxTileSide][kMaxTileSide];
-  float inverse_deviation[kMaxTileSide][kMaxTileSide];   // 1 / sqrt(n² variance) of each reference window
+  float inverse_deviation[kMaxTileSide][kMaxTileSide];  // 1 / sqrt(n² variance) of each reference window
   float ncc_sum[kMaxTileSide][kMaxTileSide];
   std::int32_t votes[kMaxTileSide][kMaxTileSide];
 
   std::int32_t texel_index[kColumns];
   std::int32_t fraction_x[kColumns];
   std::int32_t fraction_y[kColumns];
-  std::uint32_t texel[4][kColumns];                      // upper left, upper right, lower left, lower right
-  std::int32_t inside[kRows][kColumns];                  // -1 inside the neighbor image, 0 outside
+  std::uint32_t texel[4][kColumns];      // upper left, upper right, lower left, lower right
+  std::int32_t inside[kRows][kColumns];  // -1 inside the neighbor image, 0 outside
   std::int32_t sample[kQuantities][kColumns];
   std::int32_t row_sum[kMaxWindow + 1][kQuantities][kMaxTileSide];  // of the rows in the window, in turn
   std::int32_t window_sum[kQuantities][kMaxTileSide];
@@ -93,8 +94,8 @@ struct Part {
   }
 }
 
-/// Interpolates a row of samples; same values as sample_bilinear(). Red and blue share a word along x: the exact results
-/// fit 16 bits each, so arithmetic modulo 2^32 on both at once gives both.
+/// Interpolates a row of samples; same values as sample_bilinear(). Red and blue share a word along x: the exact
+/// results fit 16 bits each, so arithmetic modulo 2^32 on both at once gives both.
 [[gnu::always_inline]] inline void interpolate_row(int row, int column, int count, int shift, Workspace& work) {
   constexpr std::uint32_t kRedBlue = 0x00ff00ffU;
   const std::int32_t center = 1 << (23 - shift);
@@ -104,7 +105,9 @@ struct Part {
   for (int i = 0; i < count; ++i) {
     const auto fraction_x = static_cast<std::uint32_t>(work.fraction_x[i]);
     const auto fraction_y = static_cast<std::uint32_t>(work.fraction_y[i]);
-    const auto along_x = [&](std::uint32_t left, std::uint32_t right) { return (left << 8) + (right - left) * fraction_x; };
+    const auto along_x = [&](std::uint32_t left, std::uint32_t right) {
+      return (left << 8) + (right - left) * fraction_x;
+    };
     const auto along_y = [&](std::uint32_t top, std::uint32_t bottom) {
       return static_cast<std::int32_t>(((top << 8) + (bottom - top) * fraction_y) >> shift) - center;
     };
@@ -152,8 +155,8 @@ template <int kWindow>
     const double blue = work.window_sum[kBlue][i];
     const float covariance = float_from_integer(kSamples * work.window_sum[kProducts][i] -
                                                 (a_red[i] * red + a_green[i] * green + a_blue[i] * blue));
-    const float variance = float_from_integer(kSamples * work.window_sum[kSquares][i] -
-                                              (red * red + green * green + blue * blue));
+    const float variance =
+        float_from_integer(kSamples * work.window_sum[kSquares][i] - (red * red + green * green + blue * blue));
     float ncc = (covariance * inverse_deviation[i]) * reciprocal_sqrt(variance);
     ncc = ncc < 1.0F ? ncc : 1.0F;
     const std::int32_t seen =
@@ -203,7 +206,9 @@ template <int kWindow>
     const int y = std::clamp(tile.y - kRadius + row, 0, image.height - 1);
     for (int column = 0; column < count_x + kWindow - 1; ++column) {
       const Rgba pixel = image.at(std::clamp(tile.x - kRadius + column, 0, image.width - 1), y);
-      const auto sample = [&](std::uint32_t value) { return static_cast<std::int32_t>((value << 16) >> shift) - center; };
+      const auto sample = [&](std::uint32_t value) {
+        return static_cast<std::int32_t>((value << 16) >> shift) - center;
+      };
       work.reference[0][row][column] = sample(red_of(pixel));
       work.reference[1][row][column] = sample(green_of(pixel));
       work.reference[2][row][column] = sample(blue_of(pixel));
@@ -241,8 +246,7 @@ template <int kWindow>
   const int shift = kSampleShift + extra_sample_shift(kWindow);
   prepare_reference<kWindow>(*task.reference, tile, shift, work);
   for (const TilePlane& plane : planes) {
-    const Part part{plane.x,          plane.y,          plane.x - tile.x, plane.y - tile.y, plane.x_end - plane.x,
-                    plane.y_end - plane.y};
+    const Part part{plane.x, plane.y, plane.x - tile.x, plane.y - tile.y, plane.x_end - plane.x, plane.y_end - plane.y};
     for (int y = part.tile_y; y < part.tile_y + part.count_y; ++y) {
       std::fill_n(work.ncc_sum[y] + part.tile_x, part.count_x, 0.0F);
       std::fill_n(work.votes[y] + part.tile_x, part.count_x, 0);
@@ -302,13 +306,20 @@ TileFunction choose_tile_function(SimdLevel simd) {
 
 TileFunction choose_tile_function(int window, SimdLevel simd) {
   switch (window) {
-    case 3: return choose_tile_function<3>(simd);
-    case 5: return choose_tile_function<5>(simd);
-    case 7: return choose_tile_function<7>(simd);
-    case 9: return choose_tile_function<9>(simd);
-    case 11: return choose_tile_function<11>(simd);
-    case 13: return choose_tile_function<13>(simd);
-    default: return choose_tile_function<15>(simd);
+    case 3:
+      return choose_tile_function<3>(simd);
+    case 5:
+      return choose_tile_function<5>(simd);
+    case 7:
+      return choose_tile_function<7>(simd);
+    case 9:
+      return choose_tile_function<9>(simd);
+    case 11:
+      return choose_tile_function<11>(simd);
+    case 13:
+      return choose_tile_function<13>(simd);
+    default:
+      return choose_tile_function<15>(simd);
   }
 }
 

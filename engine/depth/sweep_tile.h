@@ -1,5 +1,5 @@
-// The sweep of one tile of the reference view with windows that share their samples: each sample of a neighbor is warped
-// once per plane, and all windows that contain it take it from running sums.
+// The sweep of one tile of the reference view with windows that share their samples: each sample of a neighbor is
+// warped once per plane, and all windows that contain it take it from running sums.
 #pragma once
 
 #include <vector>

@@ -21,8 +21,8 @@ VoteRule make_vote_rule(const SweepOptions& options, int neighbor_count);
 constexpr PixelVote kNoVote{0.0F, 0.0F, -1};
 
 /// The better of a pixel's best plane so far and this one. ncc_sum, votes: sum and count of the NCC values above the
-/// threshold, added in the order of the neighbors. corr(d) and conf(d) as in the paper; of planes with equal corr(d) the
-/// first stays. Twin: vote in shaders/lib/vote.glsl.
+/// threshold, added in the order of the neighbors. corr(d) and conf(d) as in the paper; of planes with equal corr(d)
+/// the first stays. Twin: vote in shaders/lib/vote.glsl.
 [[gnu::always_inline]] inline PixelVote vote(PixelVote best, float ncc_sum, int votes, int plane,
                                              const VoteRule& rule) {
   const float count = static_cast<float>(votes);

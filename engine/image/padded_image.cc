@@ -31,8 +31,10 @@ Sample sample_bilinear(const PaddedImage& image, int u, int v, int extra_shift) 
   const int shift = kSampleShift + extra_shift;
   const int center = (1 << (23 - shift));
   const auto interpolate = [&](auto channel) {
-    const int top = static_cast<int>(channel(p00)) * (kPositionScale - fraction_x) + static_cast<int>(channel(p10)) * fraction_x;
-    const int bottom = static_cast<int>(channel(p01)) * (kPositionScale - fraction_x) + static_cast<int>(channel(p11)) * fraction_x;
+    const int top =
+        static_cast<int>(channel(p00)) * (kPositionScale - fraction_x) + static_cast<int>(channel(p10)) * fraction_x;
+    const int bottom =
+        static_cast<int>(channel(p01)) * (kPositionScale - fraction_x) + static_cast<int>(channel(p11)) * fraction_x;
     return ((top * (kPositionScale - fraction_y) + bottom * fraction_y) >> shift) - center;
   };
   return {interpolate(red_of), interpolate(green_of), interpolate(blue_of)};

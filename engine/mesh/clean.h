@@ -9,7 +9,7 @@
 namespace quorum {
 
 struct CleanOptions {
-  float min_confidence = 0;                     ///< a triangle with a corner below this is dropped; >= 0
+  float min_confidence = 0.045F;                ///< a triangle with a corner below this is dropped; >= 0
   std::uint64_t min_component_triangles = 100;  ///< a component with fewer triangles is dropped; 0 or 1 keeps all
   bool largest_component = false;               ///< keep only the component with the most triangles
 

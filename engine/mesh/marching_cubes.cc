@@ -3,7 +3,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -17,7 +16,8 @@ namespace {
 constexpr int kSide = kBlockSide + 2;  // a block with one voxel more on each side
 constexpr int kEdgesOfBlock = 3 * kBlockVoxels;
 
-/// Vertices of a block: one bit for each lattice edge (3 * voxel + axis) that starts in it, and the number of the first.
+/// Vertices of a block: one bit for each lattice edge (3 * voxel + axis) that starts in it, and the number of the
+/// first.
 struct BlockVertices {
   std::array<std::uint64_t, kEdgesOfBlock / 64> bits = {};
   std::uint32_t first = 0;
@@ -45,8 +45,7 @@ class Neighborhood {
     const auto [x, y, z] = grid.block_position(pool.indices[slot]);
     for (int dz = -1; dz <= 1; ++dz)
       for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
-          slots_[neighbor_index(dx, dy, dz)] = find(grid, x + dx, y + dy, z + dz);
+        for (int dx = -1; dx <= 1; ++dx) slots_[neighbor_index(dx, dy, dz)] = find(grid, x + dx, y + dy, z + dz);
     for (int vz = -1; vz <= kBlockSide; ++vz)
       for (int vy = -1; vy <= kBlockSide; ++vy)
         for (int vx = -1; vx <= kBlockSide; ++vx) voxels_[voxel_index(vx, vy, vz)] = load(vx, vy, vz);

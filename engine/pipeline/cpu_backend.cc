@@ -33,7 +33,9 @@ Surface make_surface(const FusionView& view, const FusionOptions& options) {
 }  // namespace
 
 std::string CpuBackend::description() const {
-  const char* simd = options_.simd == SimdLevel::kAvx512 ? "AVX-512" : options_.simd == SimdLevel::kAvx2 ? "AVX2" : "baseline";
+  const char* simd = options_.simd == SimdLevel::kAvx512 ? "AVX-512"
+                     : options_.simd == SimdLevel::kAvx2 ? "AVX2"
+                                                         : "baseline";
   return fmt::format("CPU, {} threads, {}",
                      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism), simd);
 }
@@ -49,9 +51,9 @@ Expected<void> CpuBackend::begin_volume(const VoxelGrid& grid, const FusionOptio
 
 Expected<std::vector<std::uint32_t>> CpuBackend::collect_blocks(const FusionView& view) {
   const Surface surface = make_surface(view, fusion_);
-  return block_indices(quorum::collect_blocks(
-      view.map.depth, surface.weights,
-      make_collect_params(view.camera, view.map.depth.width, view.map.depth.height, grid_)));
+  return block_indices(
+      quorum::collect_blocks(view.map.depth, surface.weights,
+                             make_collect_params(view.camera, view.map.depth.width, view.map.depth.height, grid_)));
 }
 
 Expected<void> CpuBackend::allocate_blocks(std::vector<std::uint32_t> indices) {

@@ -64,8 +64,8 @@ Error stopped() { return {ErrorKind::kStopped, "stopped as asked; finished depth
 
 /// Merges the views into the volume and reads it back.
 Expected<BlockPool> fill_volume(const Scene& scene, const std::vector<int>& views, const ReconstructOptions& options,
-                                const VoxelGrid& grid, Backend& backend, const Workspace& workspace,
-                                ImageStore& images, Progress& progress, RunReport& report) {
+                                const VoxelGrid& grid, Backend& backend, const Workspace& workspace, ImageStore& images,
+                                Progress& progress, RunReport& report) {
   const auto with_view = [&](int index, auto use) -> Expected<void> {
     if (progress.stop_requested()) return std::unexpected(stopped());
     const View& view = view_at(scene, index);
@@ -90,7 +90,8 @@ Expected<BlockPool> fill_volume(const Scene& scene, const std::vector<int>& view
         if (!blocks) return std::unexpected(blocks.error());
         std::vector<std::uint32_t> merged;
         merged.reserve(all_blocks.size() + blocks->size());
-        std::set_union(all_blocks.begin(), all_blocks.end(), blocks->begin(), blocks->end(), std::back_inserter(merged));
+        std::set_union(all_blocks.begin(), all_blocks.end(), blocks->begin(), blocks->end(),
+                       std::back_inserter(merged));
         all_blocks = std::move(merged);
         blocks_of_view.push_back(std::move(*blocks));
         return {};
@@ -120,8 +121,8 @@ Expected<void> ReconstructOptions::check() const {
   if (!(mask_below >= 0.0 && mask_below < 1.0))
     return failure(ErrorKind::kUsage, fmt::format("--mask-below {}: give a level from 0 to 1", mask_below));
   if (sweep.min_votes > views.neighbor_count)
-    return failure(ErrorKind::kUsage, fmt::format("--min-votes {}: can't exceed --neighbors {}", sweep.min_votes,
-                                                  views.neighbor_count));
+    return failure(ErrorKind::kUsage,
+                   fmt::format("--min-votes {}: can't exceed --neighbors {}", sweep.min_votes, views.neighbor_count));
   return {};
 }
 

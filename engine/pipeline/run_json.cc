@@ -36,10 +36,10 @@ Json options_json(const ReconstructOptions& options) {
 std::string run_json(const Scene& scene, const ReconstructOptions& options, const RunReport& report) {
   Json stages = Json::array();
   for (const StageReport& stage : report.stages)
-    stages.push_back(
-        {{"name", stage.name}, {"wall_seconds", stage.wall_seconds}, {"cpu_seconds", stage.cpu_seconds}});
+    stages.push_back({{"name", stage.name}, {"wall_seconds", stage.wall_seconds}, {"cpu_seconds", stage.cpu_seconds}});
   Json kernels = Json::array();
-  for (const StageTime& kernel : report.kernels) kernels.push_back({{"name", kernel.name}, {"seconds", kernel.seconds}});
+  for (const StageTime& kernel : report.kernels)
+    kernels.push_back({{"name", kernel.name}, {"seconds", kernel.seconds}});
   Json views = Json::array();
   for (const ViewReport& view : report.views)
     views.push_back({{"name", view.name},
@@ -48,20 +48,20 @@ std::string run_json(const Scene& scene, const ReconstructOptions& options, cons
                      {"depth_samples", view.depth_samples},
                      {"valid_pixels", view.valid_pixels}});
   const auto point = [](const Eigen::Vector3d& p) { return Json{p.x(), p.y(), p.z()}; };
-  const Json all = {{"version", version()},
-                    {"device", report.device},
-                    {"scene", {{"views", scene.views.size()}, {"bounds", {point(scene.bounds.low), point(scene.bounds.high)}}}},
-                    {"options", options_json(options)},
-                    {"stages", stages},
-                    {"kernels", kernels},
-                    {"peak_memory_bytes", peak_memory_bytes()},
-                    {"volume",
-                     {{"voxel_size", report.voxel_size}, {"truncation", report.truncation}, {"blocks", report.blocks}}},
-                    {"mesh",
-                     {{"extracted_triangles", report.extracted_triangles},
-                      {"triangles", report.triangles},
-                      {"vertices", report.vertices}}},
-                    {"depth_maps", views}};
+  const Json all = {
+      {"version", version()},
+      {"device", report.device},
+      {"scene", {{"views", scene.views.size()}, {"bounds", {point(scene.bounds.low), point(scene.bounds.high)}}}},
+      {"options", options_json(options)},
+      {"stages", stages},
+      {"kernels", kernels},
+      {"peak_memory_bytes", peak_memory_bytes()},
+      {"volume", {{"voxel_size", report.voxel_size}, {"truncation", report.truncation}, {"blocks", report.blocks}}},
+      {"mesh",
+       {{"extracted_triangles", report.extracted_triangles},
+        {"triangles", report.triangles},
+        {"vertices", report.vertices}}},
+      {"depth_maps", views}};
   return all.dump(2) + "\n";
 }
 

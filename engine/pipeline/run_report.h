@@ -19,9 +19,9 @@ struct StageReport {
 struct ViewReport {
   std::string name;
   std::vector<std::string> neighbors;
-  std::uint64_t swept_pixels = 0;    ///< pixels whose ray meets the bounds and that no mask leaves out
-  std::uint64_t depth_samples = 0;   ///< pixel · depth samples of the first pass
-  std::uint64_t valid_pixels = 0;    ///< pixels with a depth
+  std::uint64_t swept_pixels = 0;   ///< pixels whose ray meets the bounds and that no mask leaves out
+  std::uint64_t depth_samples = 0;  ///< pixel · depth samples of the first pass
+  std::uint64_t valid_pixels = 0;   ///< pixels with a depth
 };
 
 struct RunReport {
@@ -29,8 +29,8 @@ struct RunReport {
   std::vector<StageReport> stages;
   std::vector<StageTime> kernels;
   std::vector<ViewReport> views;
-  double voxel_size = 0.0;   ///< scene units
-  double truncation = 0.0;   ///< scene units
+  double voxel_size = 0.0;  ///< scene units
+  double truncation = 0.0;  ///< scene units
   std::uint64_t blocks = 0;
   std::uint64_t extracted_triangles = 0;  ///< before cleaning
   std::uint64_t vertices = 0;

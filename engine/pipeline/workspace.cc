@@ -26,11 +26,12 @@ bool Workspace::has_depth_map(const std::string& view) const {
 
 Expected<void> Workspace::save_depth_map(const std::string& view, const DepthMap& map) const {
   Expected<void> saved[5];
-  tbb::parallel_invoke([&] { saved[0] = write_pfm(map_path(view, "correlation", "pfm"), map.correlation); },
-                       [&] { saved[1] = write_pfm(map_path(view, "confidence", "pfm"), map.confidence); },
-                       [&] { saved[2] = write_png(map_path(view, "correlation", "png"), color_map_unit(map.correlation)); },
-                       [&] { saved[3] = write_png(map_path(view, "confidence", "png"), color_map_unit(map.confidence)); },
-                       [&] { saved[4] = write_png(map_path(view, "depth", "png"), color_map_depth(map.depth)); });
+  tbb::parallel_invoke(
+      [&] { saved[0] = write_pfm(map_path(view, "correlation", "pfm"), map.correlation); },
+      [&] { saved[1] = write_pfm(map_path(view, "confidence", "pfm"), map.confidence); },
+      [&] { saved[2] = write_png(map_path(view, "correlation", "png"), color_map_unit(map.correlation)); },
+      [&] { saved[3] = write_png(map_path(view, "confidence", "png"), color_map_unit(map.confidence)); },
+      [&] { saved[4] = write_png(map_path(view, "depth", "png"), color_map_depth(map.depth)); });
   for (const auto& result : saved)
     if (!result) return result;
   return write_pfm(map_path(view, "depth", "pfm"), map.depth);
@@ -49,8 +50,8 @@ Expected<DepthMap> Workspace::load_depth_map(const std::string& view, int width,
     grid = std::move(*loaded);
     return {};
   };
-  for (const auto& result : {load("depth", map.depth), load("correlation", map.correlation),
-                             load("confidence", map.confidence)})
+  for (const auto& result :
+       {load("depth", map.depth), load("correlation", map.correlation), load("confidence", map.confidence)})
     if (!result) return std::unexpected(result.error());
   return map;
 }

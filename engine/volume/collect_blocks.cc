@@ -34,7 +34,8 @@ CollectParams make_collect_params(const Camera& camera, int width, int height, c
   const Eigen::Vector3d origin = (camera.center() - grid.origin) / block_size;
   CollectParams params;
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) params.ray_from_pixel[3 * row + column] = static_cast<float>(ray(row, column));
+    for (int column = 0; column < 3; ++column)
+      params.ray_from_pixel[3 * row + column] = static_cast<float>(ray(row, column));
     params.origin[row] = static_cast<float>(origin(row));
     params.blocks[row] = grid.blocks[static_cast<std::size_t>(row)];
   }

@@ -34,7 +34,8 @@ void integrate_voxel(const WeightedSurface& surface, const IntegrateParams& para
   const float inverse_z = reciprocal(pz);
   const float u = px * inverse_z;
   const float v = py * inverse_z;
-  if (!(u >= 0.0F && v >= 0.0F && u < static_cast<float>(params.width - 1) && v < static_cast<float>(params.height - 1)))
+  if (!(u >= 0.0F && v >= 0.0F && u < static_cast<float>(params.width - 1) &&
+        v < static_cast<float>(params.height - 1)))
     return;
   const int column = static_cast<int>(u);
   const int row = static_cast<int>(v);
@@ -56,7 +57,7 @@ void integrate_voxel(const WeightedSurface& surface, const IntegrateParams& para
   const float ray_squared = ray_x * ray_x + (ray_y * ray_y + 1.0F);
   const float ray_length = ray_squared * reciprocal_sqrt(ray_squared);
   const float distance = ((on_triangle(surface.depth) - pz) * ray_length) * params.inverse_truncation;
-  if (!(distance >= -1.0F && distance <= 1.0F)) return;
+  if (!(distance >= -kBehindShare && distance <= 1.0F)) return;
   const float scale = static_cast<float>(kDistanceScale);
   const int signed_distance = static_cast<int>(distance * scale + (scale + 0.5F)) - kDistanceScale;
   const int weight = static_cast<int>(on_triangle(surface.weights) + 0.5F);

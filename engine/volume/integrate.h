@@ -34,7 +34,7 @@ struct BlockSlot {
 std::vector<BlockSlot> find_slots(const std::vector<std::uint32_t>& blocks, const std::vector<std::uint32_t>& pool);
 
 /// Adds the surface to the listed blocks of the pool. A voxel takes it if its center projects into a triangle and lies
-/// within the truncation of it.
+/// within the truncation before it or kBehindShare of the truncation behind it.
 void integrate(const WeightedSurface& surface, const std::vector<BlockSlot>& list, const IntegrateParams& params,
                std::vector<Voxel>& voxels);
 

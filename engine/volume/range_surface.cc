@@ -41,8 +41,8 @@ Grid<std::uint32_t> range_surface(const Grid<float>& depth, const RangeSurfacePa
   Grid<std::uint32_t> cells(params.width, params.height);
   tbb::parallel_for(0, params.height - 1, [&](int y) {
     for (int x = 0; x < params.width - 1; ++x)
-      cells.at(x, y) =
-          cell_triangles(depth.at(x, y), depth.at(x + 1, y), depth.at(x, y + 1), depth.at(x + 1, y + 1), params.max_step);
+      cells.at(x, y) = cell_triangles(depth.at(x, y), depth.at(x + 1, y), depth.at(x, y + 1), depth.at(x + 1, y + 1),
+                                      params.max_step);
   });
   return cells;
 }

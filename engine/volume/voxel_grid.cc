@@ -43,10 +43,11 @@ Expected<VoxelGrid> make_voxel_grid(const Scene& scene, const FusionOptions& opt
     grid.blocks[static_cast<std::size_t>(axis)] = static_cast<int>(std::min(count, kMaxBlocks));
   }
   if (blocks > kMaxBlocks)
-    return failure(ErrorKind::kUsage,
-                   fmt::format("--voxel-size {}: the bounds would hold {:.3g} blocks of 8x8x8 voxels, more than {:.0f}; "
-                               "give a larger voxel or smaller bounds",
-                               grid.voxel_size, blocks, kMaxBlocks));
+    return failure(
+        ErrorKind::kUsage,
+        fmt::format("--voxel-size {}: the bounds would hold {:.3g} blocks of 8x8x8 voxels, more than {:.0f}; "
+                    "give a larger voxel or smaller bounds",
+                    grid.voxel_size, blocks, kMaxBlocks));
   return grid;
 }
 

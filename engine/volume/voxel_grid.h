@@ -40,8 +40,8 @@ Expected<VoxelGrid> make_voxel_grid(const Scene& scene, const FusionOptions& opt
 
 /// One voxel: sums over the views that saw it. Integers, so the order of the views does not matter.
 struct Voxel {
-  std::int32_t weight = 0;    ///< in 1 / kWeightScale
-  std::int32_t distance = 0;  ///< weight · signed distance in truncation / kDistanceScale; positive before the surface
+  std::int32_t weight = 0;     ///< in 1 / kWeightScale
+  std::int32_t distance = 0;   ///< weight · signed distance in truncation / kDistanceScale; positive before the surface
   std::int32_t color[3] = {};  ///< weight · red, green, blue in 8 bits
 };
 static_assert(sizeof(Voxel) == kVoxelWords * 4);

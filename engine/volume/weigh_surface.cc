@@ -85,7 +85,7 @@ Grid<std::uint32_t> weigh_surface(const Grid<float>& depth, const Grid<float>& c
       const float ray_squared = rx * rx + (ry * ry + 1.0F);
       const float cosine = (d * reciprocal_sqrt(normal_squared)) * reciprocal_sqrt(ray_squared);
       const float ramp = static_cast<float>(border_distance(cells, x, y, params.feather) + 1) * feather_scale;
-      const float weight = ((confidence.at(x, y) * cosine) * ramp) * static_cast<float>(kWeightScale) + 0.5F;
+      const float weight = ((confidence.at(x, y) * cosine) * (ramp * ramp)) * static_cast<float>(kWeightScale) + 0.5F;
       weights.at(x, y) = static_cast<std::uint32_t>(std::clamp(static_cast<int>(weight), 1, kWeightScale));
     }
   });

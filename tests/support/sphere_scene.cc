@@ -23,7 +23,8 @@ class Texture {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     for (auto& channel : waves_)
-      for (auto& wave : channel) wave = {18.0 * Eigen::Vector3d(uniform(random), uniform(random), uniform(random)), 3.0 * uniform(random)};
+      for (auto& wave : channel)
+        wave = {18.0 * Eigen::Vector3d(uniform(random), uniform(random), uniform(random)), 3.0 * uniform(random)};
   }
   [[nodiscard]] double value(std::size_t channel, const Eigen::Vector3d& point) const {
     double sum = 0.0;

@@ -20,9 +20,9 @@ TemporaryFolder::~TemporaryFolder() {
 
 std::filesystem::path data_folder() {
   const char* given = std::getenv("QUORUM_DATA");
-  const std::filesystem::path folder =
-      given != nullptr ? std::filesystem::path(given)
-                       : std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
+  const std::filesystem::path folder = given != nullptr
+                                           ? std::filesystem::path(given)
+                                           : std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
   return std::filesystem::is_directory(folder) ? std::filesystem::canonical(folder) : std::filesystem::path();
 }
 

@@ -45,7 +45,7 @@ TEST(Exact, IntegersUpTo24BitsStayAsTheyAre) {
 }
 
 TEST(Exact, LargerIntegersAreCutTowardZero) {
-  EXPECT_EQ(float_from_integer(33554431.0), 33554430.0F);    // 2^25 - 1: rounding to nearest would give 2^25
+  EXPECT_EQ(float_from_integer(33554431.0), 33554430.0F);  // 2^25 - 1: rounding to nearest would give 2^25
   EXPECT_EQ(float_from_integer(-33554431.0), -33554430.0F);
   EXPECT_EQ(float_from_integer(9007199254740991.0), 9007198717870080.0F);  // 2^53 - 1
 }

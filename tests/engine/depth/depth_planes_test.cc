@@ -81,7 +81,8 @@ TEST(PlaneRanges, HoldTheSamplesInsideTheBoundsAndOneMoreAtEachEnd) {
   const auto ranges = make_plane_ranges(view, sphere.scene.bounds, {}, *planes, 2);
   const auto inside = [&](int x, int y, std::size_t plane) {
     const Eigen::Vector3d point = view.camera.unproject(x, y, planes->depth[plane]);
-    return ((point - sphere.scene.bounds.low).array() >= 0).all() && ((sphere.scene.bounds.high - point).array() >= 0).all();
+    return ((point - sphere.scene.bounds.low).array() >= 0).all() &&
+           ((sphere.scene.bounds.high - point).array() >= 0).all();
   };
   int swept = 0;
   for (int y = 2; y < 46; ++y) {

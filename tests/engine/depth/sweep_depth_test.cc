@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "engine/depth/refine_depth.h"
 #include "engine/depth/plane_warp.h"
+#include "engine/depth/refine_depth.h"
 #include "engine/depth/vote_depth.h"
 #include "tests/support/sphere_scene.h"
 
@@ -67,8 +67,10 @@ TEST(SweepDepth, FindsTheSphere) {
       const double depth = map.depth.at(x, y);
       if (depth <= 0) continue;
       ++found;
-      if (truth <= 0) ++background;
-      else if (std::abs(depth - truth) < 0.01) ++close;
+      if (truth <= 0)
+        ++background;
+      else if (std::abs(depth - truth) < 0.01)
+        ++close;
       EXPECT_GT(map.correlation.at(x, y), 0.6F);
       EXPECT_LE(map.correlation.at(x, y), 1.0F);
       EXPECT_GT(map.confidence.at(x, y), 0.0F);
@@ -91,7 +93,8 @@ TEST(SweepDepth, TheSecondPassIsCloserToTheTruth) {
     int count = 0;
     for (int y = 30; y < 60; ++y)
       for (int x = 45; x < 75; ++x)
-        if (map.depth.at(x, y) > 0) sum += std::abs(map.depth.at(x, y) - sphere_depth(sphere.scene.views[2], x, y)), ++count;
+        if (map.depth.at(x, y) > 0)
+          sum += std::abs(map.depth.at(x, y) - sphere_depth(sphere.scene.views[2], x, y)), ++count;
     EXPECT_GT(count, 700);
     return sum / count;
   };
@@ -135,7 +138,8 @@ TEST(SweepDepth, AxisWindowsFailOnUpsideDownNeighborsAndPlaneWindowsDoNot) {
     int close = 0;
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x)
-        close += map.depth.at(x, y) > 0 && std::abs(map.depth.at(x, y) - sphere_depth(sphere.scene.views[1], x, y)) < 0.02;
+        close +=
+            map.depth.at(x, y) > 0 && std::abs(map.depth.at(x, y) - sphere_depth(sphere.scene.views[1], x, y)) < 0.02;
     return close;
   };
   const int plane = found(WindowModel::kPlane);
@@ -151,7 +155,8 @@ TEST(SweepDepth, AxisWindowsWorkOnUprightNeighbors) {
   int close = 0;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
-      close += map.depth.at(x, y) > 0 && std::abs(map.depth.at(x, y) - sphere_depth(sphere.scene.views[2], x, y)) < 0.02;
+      close +=
+          map.depth.at(x, y) > 0 && std::abs(map.depth.at(x, y) - sphere_depth(sphere.scene.views[2], x, y)) < 0.02;
   EXPECT_GT(close, 1500);
 }
 
@@ -171,7 +176,8 @@ TEST(SweepDepth, OneVoteIsNotEnough) {
   SweepOptions lenient;
   lenient.min_votes = 1;
   const DepthMap one_vote = sweep_depth(make_sphere_task(sphere, 1, lenient), {});
-  EXPECT_GT(std::count_if(one_vote.depth.values.begin(), one_vote.depth.values.end(), [](float d) { return d > 0; }), 1000);
+  EXPECT_GT(std::count_if(one_vote.depth.values.begin(), one_vote.depth.values.end(), [](float d) { return d > 0; }),
+            1000);
 }
 
 TEST(Vote, FollowsTheFormulasOfThePaper) {

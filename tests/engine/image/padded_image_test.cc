@@ -46,7 +46,8 @@ TEST(SampleBilinear, AgreesWithDoublePrecisionWithinOneSixteenthGrayLevel) {
     const double fx = x - column;
     const double fy = y - row;
     const auto red = [&](int dx, int dy) { return static_cast<double>(red_of(image.at(column + dx, row + dy))); };
-    const double truth = (1 - fy) * ((1 - fx) * red(0, 0) + fx * red(1, 0)) + fy * ((1 - fx) * red(0, 1) + fx * red(1, 1));
+    const double truth =
+        (1 - fy) * ((1 - fx) * red(0, 0) + fx * red(1, 0)) + fy * ((1 - fx) * red(0, 1) + fx * red(1, 1));
     const double sample = (sample_bilinear(padded, u, v, 0).red + 2048) / 16.0;
     EXPECT_LE(sample, truth + 1e-9);
     EXPECT_GT(sample, truth - 1.0 / 16.0 - 1e-9);
