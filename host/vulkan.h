@@ -21,12 +21,14 @@ inline Error vulkan_error(std::string_view doing, const vk::SystemError& excepti
     case vk::Result::eErrorOutOfDeviceMemory:
     case vk::Result::eErrorOutOfHostMemory:
     case vk::Result::eErrorTooManyObjects:
-      return Error{ErrorKind::kMemory, "out of memory: lower --memory, or close other programs that use the device"}
+      return Error{
+          ErrorKind::kMemory,
+          "out of memory: give a larger --voxel-size, use --device cpu, or close other programs that use the device"}
           .within(doing);
     case vk::Result::eErrorDeviceLost:
       return Error{ErrorKind::kDevice,
-                   "the device was lost, its driver has reset it: run again, it continues where it stopped; if that "
-                   "repeats, update the driver or use --device cpu"}
+                   "the device was lost, its driver has reset it: run again; if that repeats, update the driver or use "
+                   "--device cpu"}
           .within(doing);
     default:
       return Error{ErrorKind::kDevice, std::string("Vulkan failed (") + exception.what() +

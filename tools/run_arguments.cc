@@ -76,6 +76,14 @@ Expected<void> resolve(RunArguments& arguments) {
                              length("--voxel-size", arguments.voxel_size, options.fusion.voxel_size),
                              length("--truncation", arguments.truncation, options.fusion.truncation)})
     if (!parsed) return parsed;
+  options.automatic_confidence = arguments.min_confidence == "auto";
+  if (!options.automatic_confidence) {
+    const char* end = arguments.min_confidence.data() + arguments.min_confidence.size();
+    const auto [next, problem] = std::from_chars(arguments.min_confidence.data(), end, options.clean.min_confidence);
+    if (problem != std::errc() || next != end)
+      return std::unexpected(
+          usage(fmt::format("--min-confidence {}: give a number, or auto", arguments.min_confidence)));
+  }
   if (arguments.threads < 0 || arguments.threads > 1024)
     return std::unexpected(usage(fmt::format("--threads {}: give 1 to 1024, or 0 for all", arguments.threads)));
   return options.check();
@@ -149,8 +157,8 @@ void RunArguments::add_fusion_options(CLI::App& app) {
   app.add_option("--feather", options.fusion.feather, "Pixels over which weights rise from a border")
       ->capture_default_str()
       ->group(group);
-  app.add_option("--min-confidence", options.clean.min_confidence,
-                 "Drop triangles of less; 1 is one view that is fully confident")
+  app.add_option("--min-confidence", min_confidence,
+                 "Drop triangles of less; 1 is one view that is fully confident; 0 keeps all")
       ->capture_default_str()
       ->group(group);
   app.add_option("--min-component", options.clean.min_component_triangles, "Drop pieces of fewer triangles")

@@ -45,14 +45,14 @@ FScore f_score(double distance, const std::vector<double>& to_truth, const std::
 
 Expected<void> EvaluateOptions::check() const {
   constexpr std::uint64_t kMostSamples = 100'000'000;
-  if (!(share >= 0 && share <= 1)) return failure(ErrorKind::kUsage, fmt::format("share: {} is not in 0..1", share));
+  if (!(share >= 0 && share <= 1)) return failure(ErrorKind::kUsage, fmt::format("--share {}: give 0 to 1", share));
   if (!is_distance(threshold))
-    return failure(ErrorKind::kUsage, fmt::format("threshold: {} is not a distance above 0", threshold));
+    return failure(ErrorKind::kUsage, fmt::format("--threshold {}: give a distance above 0", threshold));
   for (const double distance : distances)
     if (!is_distance(distance))
-      return failure(ErrorKind::kUsage, fmt::format("distances: {} is not a distance above 0", distance));
+      return failure(ErrorKind::kUsage, fmt::format("--distances {}: give distances above 0", distance));
   if (samples < 1 || samples > kMostSamples)
-    return failure(ErrorKind::kUsage, fmt::format("samples: {} is not in 1..{}", samples, kMostSamples));
+    return failure(ErrorKind::kUsage, fmt::format("--samples {}: give 1 to {}", samples, kMostSamples));
   return {};
 }
 

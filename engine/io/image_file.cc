@@ -1,11 +1,14 @@
 #include "engine/io/image_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <climits>
 #include <exception>
+#include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -31,6 +34,33 @@ std::string one_line(const std::exception& exception) {
   return text;
 }
 
+/// While it lives, what libraries print on standard error is dropped: libpng tells of damage there, and we do so in our
+/// own line. One at a time.
+class SilentStandardError {
+ public:
+  SilentStandardError() : lock_(mutex()), kept_(::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
+    const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (kept_ >= 0 && nothing >= 0) ::dup2(nothing, STDERR_FILENO);
+    if (nothing >= 0) ::close(nothing);
+  }
+  ~SilentStandardError() {
+    if (kept_ < 0) return;
+    ::dup2(kept_, STDERR_FILENO);
+    ::close(kept_);
+  }
+  SilentStandardError(const SilentStandardError&) = delete;
+  SilentStandardError& operator=(const SilentStandardError&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex mutex;
+    return mutex;
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  int kept_;
+};
+
 /// Decodes the stored pixels with the flags of cv::imdecode.
 Expected<cv::Mat> decode(const std::filesystem::path& path, int flags) {
   auto bytes = read_file(path);
@@ -39,7 +69,11 @@ Expected<cv::Mat> decode(const std::filesystem::path& path, int flags) {
     return image_failure(path, fmt::format("{} bytes are not an image; replace the file", bytes->size()));
   try {
     const cv::Mat encoded(1, static_cast<int>(bytes->size()), CV_8UC1, bytes->data());
-    cv::Mat image = cv::imdecode(encoded, flags | cv::IMREAD_IGNORE_ORIENTATION);
+    cv::Mat image;
+    {
+      const SilentStandardError silent;
+      image = cv::imdecode(encoded, flags | cv::IMREAD_IGNORE_ORIENTATION);
+    }
     if (image.empty()) return image_failure(path, "is damaged or of an unknown kind of image; replace the file");
     return image;
   } catch (const std::exception& exception) {

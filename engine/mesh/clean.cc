@@ -74,8 +74,20 @@ Mesh keep_vertices(const Mesh& mesh, std::vector<Triangle> triangles, const std:
 
 Expected<void> CleanOptions::check() const {
   if (!(std::isfinite(min_confidence) && min_confidence >= 0))
-    return failure(ErrorKind::kUsage, fmt::format("min_confidence: {} is not a number of at least 0", min_confidence));
+    return failure(ErrorKind::kUsage, fmt::format("--min-confidence {}: give a number of at least 0", min_confidence));
   return {};
+}
+
+float automatic_min_confidence(const Mesh& mesh) {
+  constexpr float kMost = 0.045F;
+  constexpr float kShareOfMedian = 0.125F;
+  if (mesh.vertices.empty()) return 0.0F;
+  std::vector<float> confidences;
+  confidences.reserve(mesh.vertices.size());
+  for (const Vertex& vertex : mesh.vertices) confidences.push_back(vertex.confidence);
+  const auto middle = confidences.begin() + static_cast<std::ptrdiff_t>(confidences.size() / 2);
+  std::nth_element(confidences.begin(), middle, confidences.end());
+  return std::min(kMost, kShareOfMedian * *middle);
 }
 
 Mesh clean(const Mesh& mesh, const CleanOptions& options, CleanCounts* counts) {

@@ -9,13 +9,18 @@
 namespace quorum {
 
 struct CleanOptions {
-  float min_confidence = 0.045F;                ///< a triangle with a corner below this is dropped; >= 0
+  float min_confidence = 0;                     ///< a triangle with a corner below this is dropped; >= 0
   std::uint64_t min_component_triangles = 100;  ///< a component with fewer triangles is dropped; 0 or 1 keeps all
   bool largest_component = false;               ///< keep only the component with the most triangles
 
   /// Names the first option that is out of its range, and the range. kUsage.
   [[nodiscard]] Expected<void> check() const;
 };
+
+/// The least confidence that a vertex needs when the user names none: 0.045, or an eighth of the median over the mesh
+/// where that is lower, so that scenes in which every surface is seen by few views keep theirs. 0 for an empty mesh.
+/// Chosen by measurement: docs/measurements/fusion_defaults.md.
+float automatic_min_confidence(const Mesh& mesh);
 
 /// What was dropped, each item under the first rule that it failed.
 struct CleanCounts {

@@ -196,7 +196,10 @@ Expected<void> fuse_depth_maps(const Scene& scene, const ReconstructOptions& opt
   }
   {
     const StageTimer timer(report, "clean");
-    mesh = clean(mesh, options.clean);
+    CleanOptions rules = options.clean;
+    if (options.automatic_confidence) rules.min_confidence = automatic_min_confidence(mesh);
+    report.min_confidence = rules.min_confidence;
+    mesh = clean(mesh, rules);
   }
   report.vertices = mesh.vertices.size();
   report.triangles = mesh.triangles.size();

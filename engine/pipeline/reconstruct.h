@@ -19,6 +19,7 @@ struct ReconstructOptions {
   SweepOptions sweep;
   FusionOptions fusion;
   CleanOptions clean;
+  bool automatic_confidence = true;           ///< clean.min_confidence from the mesh itself
   double mask_below = 0.0;                    ///< level of the dark-background mask, 0..1; 0 = none (paper 4.6)
   std::size_t image_cache_bytes = 512 << 20;  ///< photographs held in memory at once
 

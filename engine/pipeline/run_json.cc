@@ -26,7 +26,7 @@ Json options_json(const ReconstructOptions& options) {
           {"truncation", automatic(options.fusion.truncation)},
           {"max_slope_deg", options.fusion.max_slope_deg},
           {"feather", options.fusion.feather},
-          {"min_confidence", options.clean.min_confidence},
+          {"min_confidence", options.automatic_confidence ? Json("auto") : Json(options.clean.min_confidence)},
           {"min_component", options.clean.min_component_triangles},
           {"largest_component", options.clean.largest_component}};
 }
@@ -58,7 +58,8 @@ std::string run_json(const Scene& scene, const ReconstructOptions& options, cons
       {"peak_memory_bytes", peak_memory_bytes()},
       {"volume", {{"voxel_size", report.voxel_size}, {"truncation", report.truncation}, {"blocks", report.blocks}}},
       {"mesh",
-       {{"extracted_triangles", report.extracted_triangles},
+       {{"min_confidence", report.min_confidence},
+        {"extracted_triangles", report.extracted_triangles},
         {"triangles", report.triangles},
         {"vertices", report.vertices}}},
       {"depth_maps", views}};

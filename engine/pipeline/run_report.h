@@ -32,6 +32,7 @@ struct RunReport {
   double voxel_size = 0.0;  ///< scene units
   double truncation = 0.0;  ///< scene units
   std::uint64_t blocks = 0;
+  double min_confidence = 0.0;            ///< that a vertex needed to stay
   std::uint64_t extracted_triangles = 0;  ///< before cleaning
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;

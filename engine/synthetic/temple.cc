@@ -74,7 +74,7 @@ Expected<void> TempleOptions::check() const {
         Range{"noise", noise, 0, 64}, Range{"texture", texture, 0, 4}}) {
     if (range.value >= range.low && range.value <= range.high) continue;
     return failure(ErrorKind::kUsage,
-                   fmt::format("{} is {}: choose {} to {}", range.name, range.value, range.low, range.high));
+                   fmt::format("--{} {}: give {} to {}", range.name, range.value, range.low, range.high));
   }
   return {};
 }

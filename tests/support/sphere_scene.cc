@@ -36,11 +36,10 @@ class Texture {
   std::array<std::array<std::pair<Eigen::Vector3d, double>, 8>, 3> waves_;
 };
 
-View make_view(int index, int views, int width, int height, bool upside_down) {
-  const double angle = 12.0 * kDegree * (index - (views - 1) / 2.0);
-  const Eigen::Vector3d center = 4.0 * Eigen::Vector3d(std::sin(angle), 0.15, -std::cos(angle)).normalized();
+/// A view that looks at the origin; up: a world direction, toward the top of the image.
+View look_at_origin(int index, const Eigen::Vector3d& center, const Eigen::Vector3d& up, int width, int height) {
   const Eigen::Vector3d forward = -center.normalized();
-  const Eigen::Vector3d right = Eigen::Vector3d(0, -1, 0).cross(forward).normalized() * (upside_down ? -1.0 : 1.0);
+  const Eigen::Vector3d right = forward.cross(up).normalized();
   const Eigen::Vector3d down = forward.cross(right);
   View view;
   view.name = fmt::format("sphere{:02}", index);
@@ -50,6 +49,29 @@ View make_view(int index, int views, int width, int height, bool upside_down) {
   view.camera.translation = -view.camera.camera_from_world * center;
   view.camera.intrinsics << 1.4 * width, 0, (width - 1) / 2.0, 0, 1.41 * width, (height - 1) / 2.0, 0, 0, 1;
   return view;
+}
+
+void add_view(SphereScene& sphere, const Texture& texture, const View& view) {
+  ColorImage image(view.width, view.height, make_rgb(0, 0, 0));
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      const double depth = sphere_depth(view, x, y);
+      if (depth <= 0) continue;
+      const Eigen::Vector3d point = view.camera.unproject(x, y, depth);
+      const auto channel = [&](std::size_t c) {
+        return static_cast<std::uint32_t>(std::clamp(255.0 * texture.value(c, point), 0.0, 255.0));
+      };
+      image.at(x, y) = make_rgb(channel(0), channel(1), channel(2));
+    }
+  }
+  sphere.scene.views.push_back(view);
+  sphere.images.push_back(std::move(image));
+}
+
+SphereScene empty_sphere_scene() {
+  SphereScene sphere;
+  sphere.scene.bounds = {{-1.05, -1.05, -1.05}, {1.05, 1.05, 1.05}};
+  return sphere;
 }
 
 }  // namespace
@@ -65,25 +87,27 @@ double sphere_depth(const View& view, double x, double y) {
 
 SphereScene make_sphere_scene(int views, int width, int height, bool flip, unsigned seed) {
   const Texture texture(seed);
-  SphereScene sphere;
-  sphere.scene.bounds = {{-1.05, -1.05, -1.05}, {1.05, 1.05, 1.05}};
+  SphereScene sphere = empty_sphere_scene();
   for (int index = 0; index < views; ++index) {
-    const View view = make_view(index, views, width, height, flip && index % 2 == 1);
-    ColorImage image(width, height, make_rgb(0, 0, 0));
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const double depth = sphere_depth(view, x, y);
-        if (depth <= 0) continue;
-        const Eigen::Vector3d point = view.camera.unproject(x, y, depth);
-        const auto channel = [&](std::size_t c) {
-          return static_cast<std::uint32_t>(std::clamp(255.0 * texture.value(c, point), 0.0, 255.0));
-        };
-        image.at(x, y) = make_rgb(channel(0), channel(1), channel(2));
-      }
-    }
-    sphere.scene.views.push_back(view);
-    sphere.images.push_back(std::move(image));
+    const double angle = 12.0 * kDegree * (index - (views - 1) / 2.0);
+    const Eigen::Vector3d center = 4.0 * Eigen::Vector3d(std::sin(angle), 0.15, -std::cos(angle)).normalized();
+    const Eigen::Vector3d up(0, flip && index % 2 == 1 ? -1 : 1, 0);
+    add_view(sphere, texture, look_at_origin(index, center, up, width, height));
   }
+  return sphere;
+}
+
+SphereScene make_surrounding_sphere_scene(int around, int width, int height, unsigned seed) {
+  const Texture texture(seed);
+  SphereScene sphere = empty_sphere_scene();
+  for (int index = 0; index < around; ++index) {
+    const double angle = 360.0 * kDegree * index / around;
+    const Eigen::Vector3d center(4.0 * std::sin(angle), 0, -4.0 * std::cos(angle));
+    add_view(sphere, texture, look_at_origin(index, center, {0, -1, 0}, width, height));
+  }
+  for (const double y : {-4.0, 4.0})
+    add_view(sphere, texture,
+             look_at_origin(static_cast<int>(sphere.images.size()), {0, y, 0}, {0, 0, 1}, width, height));
   return sphere;
 }
 

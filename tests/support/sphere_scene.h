@@ -21,6 +21,9 @@ struct SphereScene {
 /// The texture is smooth and seeded; the background is black.
 SphereScene make_sphere_scene(int views, int width, int height, bool flip, unsigned seed);
 
+/// Cameras on a full circle, 4 units from the center, and one above and one below, all upright. As above otherwise.
+SphereScene make_surrounding_sphere_scene(int around, int width, int height, unsigned seed);
+
 /// Depth of the sphere at a pixel of a view, 0 where the ray misses it.
 double sphere_depth(const View& view, double x, double y);
 

@@ -13,7 +13,7 @@ namespace {
 ColorImage random_image(int width, int height) {
   ColorImage image(width, height);
   std::mt19937 random(7);
-  for (Rgba& pixel : image.values) pixel = random() | 0xff000000U;
+  for (Rgba& pixel : image.values) pixel = static_cast<Rgba>(random()) | 0xff000000U;
   return image;
 }
 

@@ -95,15 +95,15 @@ TEST(TempleOptions, EachRangeIsChecked) {
     EXPECT_EQ(checked.error().kind, ErrorKind::kUsage);
     return checked.error().message;
   };
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.views = 2; }), "views is 2: choose 3 to 1024");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.views = 1025; }), "views is 1025: choose 3 to 1024");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.width = 63; }), "width is 63: choose 64 to 8192");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.width = 8193; }), "width is 8193: choose 64 to 8192");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = -0.5; }), "noise is -0.5: choose 0 to 64");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = 64.5; }), "noise is 64.5: choose 0 to 64");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.texture = -1; }), "texture is -1: choose 0 to 4");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.texture = 4.5; }), "texture is 4.5: choose 0 to 4");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = std::nan(""); }), "noise is nan: choose 0 to 64");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.views = 2; }), "--views 2: give 3 to 1024");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.views = 1025; }), "--views 1025: give 3 to 1024");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.width = 63; }), "--width 63: give 64 to 8192");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.width = 8193; }), "--width 8193: give 64 to 8192");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = -0.5; }), "--noise -0.5: give 0 to 64");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = 64.5; }), "--noise 64.5: give 0 to 64");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.texture = -1; }), "--texture -1: give 0 to 4");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.texture = 4.5; }), "--texture 4.5: give 0 to 4");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = std::nan(""); }), "--noise nan: give 0 to 64");
   EXPECT_EQ(error_with([](TempleOptions& o) { o = {3, CameraPath::kHemisphere, 64, 0, 0, 0}; }), "none");
   EXPECT_EQ(error_with([](TempleOptions& o) { o = {1024, CameraPath::kRing, 8192, 64, 4, 7}; }), "none");
 }
