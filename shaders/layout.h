@@ -30,7 +30,7 @@ const int kDistanceScale = 2048;    // signed distance is kept in 1/2048 of the 
 const int kWeightScale = 255;       // weight 1 = a vertex of full confidence
 const int kMaxIntegratedViews = 4096;  // 2048 * 255 * 4096 < 2^31: the sums of a voxel can't overflow
 const float kBehindShare = 0.5f;    // of the truncation: how far behind a surface voxels take it (what lies further in
-                                    // belongs to other surfaces: measured in docs/architecture.md)
+                                    // belongs to other surfaces: docs/measurements/fusion_defaults.md)
 const int kVoxelWords = 5;          // of one voxel: weight, weighted distance, weighted red, green, blue
 
 // Bits of a cell of the range surface. A cell has the pixels 0 = (x, y), 1 = (x+1, y), 2 = (x, y+1), 3 = (x+1, y+1) and

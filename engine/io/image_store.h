@@ -1,7 +1,7 @@
 // The photographs and masks of a scene, loaded when a stage asks for them and kept within a budget of memory.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <list>
 #include <map>
 #include <memory>

@@ -69,7 +69,7 @@ TEST(SweepDepth, FindsTheSphere) {
       ++found;
       if (truth <= 0)
         ++background;
-      else if (std::abs(depth - truth) < 0.01)
+      else if (std::abs(depth - truth) < 0.03)
         ++close;
       EXPECT_GT(map.correlation.at(x, y), 0.6F);
       EXPECT_LE(map.correlation.at(x, y), 1.0F);

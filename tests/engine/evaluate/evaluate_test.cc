@@ -192,17 +192,17 @@ TEST(EvaluateOptions, WhatIsOutOfRangeIsNamed) {
     EvaluateOptions options;
     change(options);
     const auto result = evaluate(cloud_along_x({0}), cloud_along_x({0}), options);
-    return result ? std::string("accepted") : result.error().message.substr(0, result.error().message.find(':'));
+    return result ? std::string("accepted") : result.error().message.substr(0, result.error().message.find(' '));
   };
   EXPECT_EQ(message([](EvaluateOptions&) {}), "accepted");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = 1.1; }), "share");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = -0.1; }), "share");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = kNan; }), "share");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.threshold = 0; }), "threshold");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.distances = {1, kNan}; }), "distances");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = 1.1; }), "--share");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = -0.1; }), "--share");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = kNan; }), "--share");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.threshold = 0; }), "--threshold");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.distances = {1, kNan}; }), "--distances");
   EXPECT_EQ(message([](EvaluateOptions& o) { o.distances = {}; }), "accepted");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.samples = 0; }), "samples");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.samples = 100'000'001; }), "samples");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.samples = 0; }), "--samples");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.samples = 100'000'001; }), "--samples");
 }
 
 }  // namespace

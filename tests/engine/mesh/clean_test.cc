@@ -143,7 +143,7 @@ TEST(CleanOptions, WhatIsOutOfRangeIsNamed) {
     const auto checked = options(bad, 0).check();
     ASSERT_FALSE(checked.has_value());
     EXPECT_EQ(checked.error().kind, ErrorKind::kUsage);
-    EXPECT_EQ(checked.error().message.find("min_confidence: "), 0U);
+    EXPECT_EQ(checked.error().message.find("--min-confidence "), 0U);
   }
 }
 

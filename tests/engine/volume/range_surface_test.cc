@@ -1,0 +1,95 @@
+#include "engine/volume/range_surface.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/engine/volume/plane_input.h"
+
+namespace quorum {
+namespace {
+
+constexpr std::uint32_t kBoth = kCellFirstTriangle | kCellSecondTriangle;
+
+/// The one cell of a 2 x 2 map.
+std::uint32_t cell_of(float d0, float d1, float d2, float d3, float max_step = 0.1F) {
+  Grid<float> depth(2, 2);
+  depth.values = {d0, d1, d2, d3};
+  return range_surface(depth, {2, 2, max_step}).at(0, 0);
+}
+
+TEST(RangeSurface, AFlatMapHasAllTriangles) {
+  const auto cells = range_surface(Grid<float>(7, 5, 2.0F), {7, 5, 0.01F});
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < 7; ++x) EXPECT_EQ(cells.at(x, y), x < 6 && y < 4 ? kBoth : 0U) << x << " " << y;
+}
+
+TEST(RangeSurface, ADepthJumpIsNotSpanned) {
+  Grid<float> depth(8, 6, 2.0F);
+  for (int y = 0; y < 6; ++y)
+    for (int x = 4; x < 8; ++x) depth.at(x, y) = 3.0F;
+  const auto cells = range_surface(depth, {8, 6, 0.05F});
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < 7; ++x) EXPECT_EQ(cells.at(x, y), x == 3 ? 0U : kBoth) << x << " " << y;
+}
+
+TEST(RangeSurface, TheSlopeOptionDecides) {
+  const Camera camera = straight_camera(9, 9, 1000.0);
+  FusionOptions options;
+  options.max_slope_deg = 70;
+  const RangeSurfaceParams params = make_range_surface_params(camera, 9, 9, options);
+  const auto flatter = range_surface(plane_depth(camera, 9, 9, 2.0, 68), params);
+  const auto steeper = range_surface(plane_depth(camera, 9, 9, 2.0, 72), params);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      EXPECT_EQ(flatter.at(x, y) & kBoth, kBoth);
+      EXPECT_EQ(steeper.at(x, y), 0U);
+    }
+  }
+}
+
+TEST(RangeSurface, ALoneSampleOrAPairFormsNoTriangle) {
+  EXPECT_EQ(cell_of(2, 0, 0, 0), 0U);
+  EXPECT_EQ(cell_of(0, 0, 2, 0), 0U);
+  EXPECT_EQ(cell_of(2, 2, 0, 0), 0U);
+  EXPECT_EQ(cell_of(2, 0, 0, 2), 0U);
+  EXPECT_EQ(cell_of(0, 2, 2, 0), 0U);
+  EXPECT_EQ(cell_of(0, 0, 0, 0), 0U);
+}
+
+TEST(RangeSurface, ThreeSamplesFormOneTriangle) {
+  EXPECT_EQ(cell_of(0, 2, 2, 2), kCellSecondTriangle);
+  EXPECT_EQ(cell_of(2, 2, 2, 0), kCellFirstTriangle);
+  EXPECT_EQ(cell_of(2, 0, 2, 2), kCellSecondTriangle | kCellSplitAlong03);
+  EXPECT_EQ(cell_of(2, 2, 0, 2), kCellFirstTriangle | kCellSplitAlong03);
+}
+
+TEST(RangeSurface, AnOutlierLeavesTheTriangleBesideIt) {
+  EXPECT_EQ(cell_of(9, 2, 2, 2), kCellSecondTriangle);
+  EXPECT_EQ(cell_of(2, 2, 2, 9), kCellFirstTriangle);
+  EXPECT_EQ(cell_of(2, 9, 2, 2), kCellSecondTriangle | kCellSplitAlong03);
+  EXPECT_EQ(cell_of(2, 2, 9, 2), kCellFirstTriangle | kCellSplitAlong03);
+}
+
+TEST(RangeSurface, CellsAreSplitAlongTheShorterDiagonal) {
+  EXPECT_EQ(cell_of(2.0F, 2.05F, 1.95F, 2.0F), kBoth | kCellSplitAlong03);
+  EXPECT_EQ(cell_of(2.05F, 2.0F, 2.0F, 1.95F), kBoth);
+  EXPECT_EQ(cell_of(2, 2, 2, 2), kBoth);
+}
+
+TEST(RangeSurface, TheSmallestMapsHaveNoCell) {
+  EXPECT_TRUE(range_surface({}, {0, 0, 0.1F}).empty());
+  EXPECT_EQ(range_surface(Grid<float>(1, 1, 2.0F), {1, 1, 0.1F}).values, std::vector<std::uint32_t>(1));
+  EXPECT_EQ(range_surface(Grid<float>(5, 1, 2.0F), {5, 1, 0.1F}).values, std::vector<std::uint32_t>(5));
+  EXPECT_EQ(range_surface(Grid<float>(1, 5, 2.0F), {1, 5, 0.1F}).values, std::vector<std::uint32_t>(5));
+}
+
+TEST(Joined, NeedsTwoDepthsWithinTheStepOfTheNearer) {
+  EXPECT_TRUE(joined(2.0F, 2.25F, 0.125F, 1.0F));
+  EXPECT_TRUE(joined(2.25F, 2.0F, 0.125F, 1.0F));
+  EXPECT_FALSE(joined(2.0F, 2.26F, 0.125F, 1.0F));
+  EXPECT_TRUE(joined(2.0F, 2.26F, 0.125F, 1.5F));
+  EXPECT_FALSE(joined(0.0F, 0.0F, 0.125F, 1.0F));
+  EXPECT_FALSE(joined(0.0F, 2.0F, 100.0F, 1.0F));
+}
+
+}  // namespace
+}  // namespace quorum

@@ -1,0 +1,120 @@
+#include "engine/volume/weigh_surface.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/engine/volume/plane_input.h"
+
+namespace quorum {
+namespace {
+
+constexpr int kSide = 31;
+constexpr int kCenter = kSide / 2;
+
+Grid<std::uint32_t> weigh(const Camera& camera, const Grid<float>& depth, float confidence,
+                          const FusionOptions& options) {
+  const auto cells = range_surface(depth, make_range_surface_params(camera, depth.width, depth.height, options));
+  return weigh_surface(depth, Grid<float>(depth.width, depth.height, confidence), cells,
+                       make_weigh_surface_params(camera, depth.width, depth.height, options));
+}
+
+TEST(WeighSurface, AFacingPlaneOfFullConfidenceHasFullWeightWithin) {
+  const Camera camera = straight_camera(kSide, kSide, 1000);
+  const auto weights = weigh(camera, Grid<float>(kSide, kSide, 2.0F), 1.0F, {});
+  const int feather = FusionOptions{}.feather;
+  for (int y = feather; y < kSide - feather; ++y)
+    for (int x = feather; x < kSide - feather; ++x) EXPECT_EQ(weights.at(x, y), 255U) << x << " " << y;
+}
+
+TEST(WeighSurface, TheWeightIsTheCosineOfTheAngleToTheLineOfSight) {
+  const Camera camera = straight_camera(kSide, kSide, 200);
+  FusionOptions options;
+  options.max_slope_deg = 85;
+  options.feather = 2;
+  for (const double angle : {0.0, 30.0, 60.0, -60.0, 75.0}) {
+    const double radians = angle * std::numbers::pi / 180.0;
+    const auto weights = weigh(camera, plane_depth(camera, kSide, kSide, 2.0, angle), 1.0F, options);
+    for (int y = 5; y < kSide - 5; ++y) {
+      for (int x = 5; x < kSide - 5; ++x) {
+        const double rx = (x - kCenter) / 200.0;
+        const double ry = (y - kCenter) / 200.0;
+        const double cosine = (std::cos(radians) - rx * std::sin(radians)) / std::sqrt(rx * rx + ry * ry + 1.0);
+        EXPECT_NEAR(weights.at(x, y), 255 * cosine, 1.5) << angle << " degrees at " << x << " " << y;
+      }
+    }
+  }
+}
+
+TEST(WeighSurface, SixtyDegreesHalveTheWeight) {
+  const Camera camera = straight_camera(kSide, kSide, 1000);
+  const auto facing = weigh(camera, plane_depth(camera, kSide, kSide, 2.0, 0), 1.0F, {});
+  const auto grazing = weigh(camera, plane_depth(camera, kSide, kSide, 2.0, 60), 1.0F, {});
+  EXPECT_NEAR(grazing.at(kCenter, kCenter), 0.5 * facing.at(kCenter, kCenter), 1.0);
+}
+
+TEST(WeighSurface, WeightsRiseFromTheBorderOverTheFeather) {
+  const Camera camera = straight_camera(kSide, kSide, 1000);
+  for (const int feather : {1, 4, 8}) {
+    FusionOptions options;
+    options.feather = feather;
+    const auto weights = weigh(camera, Grid<float>(kSide, kSide, 2.0F), 1.0F, options);
+    for (int x = 0; x < feather; ++x) {
+      EXPECT_LT(weights.at(x, kCenter), weights.at(x + 1, kCenter)) << "left, feather " << feather;
+      EXPECT_LT(weights.at(kCenter, x), weights.at(kCenter, x + 1)) << "top, feather " << feather;
+      EXPECT_EQ(weights.at(x, kCenter), weights.at(kSide - 1 - x, kCenter)) << "right, feather " << feather;
+      EXPECT_EQ(weights.at(x, kCenter), weights.at(kCenter, kSide - 1 - x)) << "bottom, feather " << feather;
+    }
+    EXPECT_EQ(weights.at(feather, kCenter), 255U);
+  }
+}
+
+TEST(WeighSurface, AHoleIsABorderToo) {
+  const Camera camera = straight_camera(kSide, kSide, 1000);
+  Grid<float> depth(kSide, kSide, 2.0F);
+  depth.at(kCenter, kCenter) = 0.0F;
+  const auto weights = weigh(camera, depth, 1.0F, {});
+  EXPECT_EQ(weights.at(kCenter, kCenter), 0U);
+  for (int x = kCenter + 1; x < kCenter + 4; ++x) EXPECT_LT(weights.at(x, kCenter), weights.at(x + 1, kCenter));
+}
+
+TEST(WeighSurface, NoFeatherMeansFullWeightAtTheBorder) {
+  const Camera camera = straight_camera(kSide, kSide, 1000);
+  FusionOptions options;
+  options.feather = 0;
+  for (const std::uint32_t weight : weigh(camera, Grid<float>(kSide, kSide, 2.0F), 1.0F, options).values)
+    EXPECT_EQ(weight, 255U);
+}
+
+TEST(WeighSurface, IsProportionalToTheConfidence) {
+  const Camera camera = straight_camera(kSide, kSide, 500);
+  const auto depth = plane_depth(camera, kSide, kSide, 2.0, 40);
+  const auto full = weigh(camera, depth, 1.0F, {});
+  for (const float confidence : {0.25F, 0.5F, 0.9F}) {
+    const auto weights = weigh(camera, depth, confidence, {});
+    for (std::size_t i = 0; i < full.values.size(); ++i)
+      EXPECT_NEAR(weights.values[i], confidence * static_cast<float>(full.values[i]), 1.01);
+  }
+}
+
+TEST(WeighSurface, IsZeroOffTheSurfaceAndAtLeastOneOnIt) {
+  const Camera camera = straight_camera(9, 9, 1000);
+  Grid<float> depth(9, 9, 0.0F);
+  depth.at(1, 1) = 2.0F;                                    // alone
+  depth.at(5, 1) = depth.at(6, 1) = 2.0F;                   // a pair
+  depth.at(4, 5) = depth.at(5, 5) = depth.at(4, 6) = 2.0F;  // a triangle
+  const auto weights = weigh(camera, depth, 1e-4F, {});
+  for (int y = 0; y < 9; ++y) {
+    for (int x = 0; x < 9; ++x) {
+      const bool corner = (x == 4 && y == 5) || (x == 5 && y == 5) || (x == 4 && y == 6);
+      EXPECT_EQ(weights.at(x, y), corner ? 1U : 0U) << x << " " << y;
+    }
+  }
+}
+
+TEST(WeighSurface, TheSmallestMapsHaveNoWeight) {
+  const Camera camera = straight_camera(1, 1, 100);
+  EXPECT_TRUE(weigh(camera, {}, 1.0F, {}).empty());
+  EXPECT_EQ(weigh(camera, Grid<float>(1, 1, 2.0F), 1.0F, {}).values, std::vector<std::uint32_t>(1));
+}
+
+}  // namespace
+}  // namespace quorum

@@ -1,0 +1,22 @@
+// Writes each member of VoteParams as one word.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "layout.h"
+
+layout(local_size_x = 1) in;
+layout(push_constant) uniform Push { VoteParams p; };
+layout(std430, binding = 0) writeonly buffer Words { uint words[]; };
+
+void main() {
+  words[0] = uint(p.width);
+  words[1] = uint(p.row_begin);
+  words[2] = uint(p.row_count);
+  words[3] = uint(p.first_plane);
+  words[4] = uint(p.plane_stride);
+  words[5] = uint(p.plane_count);
+  words[6] = uint(p.neighbor_count);
+  words[7] = uint(p.min_votes);
+  words[8] = floatBitsToUint(p.threshold);
+  words[9] = floatBitsToUint(p.confidence_scale);
+  words[10] = uint(p.relative_planes);
+}

@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <memory>
+
+#include "engine/pipeline/cpu_backend.h"
+#include "host/vulkan_backend.h"
+#include "tests/parity/parity_test.h"
+#include "tests/support/sphere_scene.h"
+
+namespace quorum {
+namespace {
+
+/// The sphere scene, its images padded, and a depth map per view.
+struct Input {
+  SphereScene sphere;
+  std::vector<PaddedImage> images;
+  std::vector<DepthMap> maps;
+
+  [[nodiscard]] FusionView view(std::size_t index) const {
+    return {maps[index], images[index], sphere.scene.views[index].camera};
+  }
+};
+
+class BackendsParity : public ParityTest {
+ protected:
+  static std::unique_ptr<VulkanBackend> vulkan() { return VulkanBackend::create(device()).value(); }
+
+  static Input make_input(int width, int height, unsigned seed) {
+    Input input{make_sphere_scene(4, width, height, true, seed), {}, {}};
+    CpuBackend cpu;
+    for (int index = 0; index < 4; ++index) {
+      input.images.push_back(pad_image(input.sphere.images[static_cast<std::size_t>(index)]));
+      input.maps.push_back(cpu.sweep_depth(make_sphere_task(input.sphere, index, {})).value());
+    }
+    return input;
+  }
+
+  /// All views through one backend, integrated in the given order.
+  static BlockPool fuse(Backend& backend, const Input& input, const FusionOptions& options,
+                        const std::vector<std::size_t>& order) {
+    const VoxelGrid grid = make_voxel_grid(input.sphere.scene, options).value();
+    EXPECT_TRUE(backend.begin_volume(grid, options));
+    std::vector<std::vector<std::uint32_t>> blocks(order.size());
+    std::vector<std::uint32_t> all;
+    for (const std::size_t index : order) {
+      blocks[index] = backend.collect_blocks(input.view(index)).value();
+      all.insert(all.end(), blocks[index].begin(), blocks[index].end());
+    }
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    EXPECT_TRUE(backend.allocate_blocks(all));
+    for (const std::size_t index : order) EXPECT_TRUE(backend.integrate(input.view(index), blocks[index]));
+    return backend.read_blocks().value();
+  }
+};
+
+TEST_F(BackendsParity, DepthMapsAreEqual) {
+  const auto gpu = vulkan();
+  CpuBackend cpu;
+  for (const auto& [window, model, seed] : {std::tuple{5, WindowModel::kPlane, 1U},
+                                            {15, WindowModel::kPlane, 2U},
+                                            {3, WindowModel::kAxis, 3U},
+                                            {5, WindowModel::kPlane, 4U}}) {
+    const SphereScene sphere = make_sphere_scene(5, 97, 71, model == WindowModel::kPlane, seed);
+    SweepOptions options;
+    options.window = window;
+    options.window_model = model;
+    options.refinement = seed == 4U ? 1 : 10;
+    const SweepTask task = make_sphere_task(sphere, 2, options);
+    const DepthMap on_device = gpu->sweep_depth(task).value();
+    const DepthMap twin = cpu.sweep_depth(task).value();
+    const std::string what = fmt::format("window {} seed {}", window, seed);
+    ASSERT_TRUE(same_words(on_device.depth.values, twin.depth.values, 97, what + " depth"));
+    ASSERT_TRUE(same_words(on_device.correlation.values, twin.correlation.values, 97, what + " correlation"));
+    ASSERT_TRUE(same_words(on_device.confidence.values, twin.confidence.values, 97, what + " confidence"));
+    const auto found = std::ranges::count_if(twin.depth.values, [](float depth) { return depth > 0; });
+    expect_share(found, 97 * 71, 0.1, 0.8, what);
+  }
+  EXPECT_FALSE(gpu->kernel_times().empty());
+}
+
+TEST_F(BackendsParity, CollectedBlocksAndPoolsAreEqual) {
+  const auto gpu = vulkan();
+  CpuBackend cpu;
+  const Input input = make_input(97, 71, 5);
+  FusionOptions options;
+  options.voxel_size = 0.025;
+  const VoxelGrid grid = make_voxel_grid(input.sphere.scene, options).value();
+  ASSERT_TRUE(gpu->begin_volume(grid, options));
+  ASSERT_TRUE(cpu.begin_volume(grid, options));
+  for (std::size_t index = 0; index < input.maps.size(); ++index) {
+    const auto twin = cpu.collect_blocks(input.view(index)).value();
+    ASSERT_TRUE(same_words(gpu->collect_blocks(input.view(index)).value(), twin, 1, fmt::format("view {}", index)));
+    expect_share(static_cast<std::int64_t>(twin.size()), static_cast<std::int64_t>(grid.block_count()), 0.05, 0.9,
+                 "collected blocks");
+  }
+  const BlockPool on_device = fuse(*gpu, input, options, {0, 1, 2, 3});
+  const BlockPool twin = fuse(cpu, input, options, {0, 1, 2, 3});
+  EXPECT_GT(twin.indices.size(), 300U);
+  ASSERT_TRUE(same_words(on_device.indices, twin.indices, 1, "block"));
+  ASSERT_TRUE(same_words(on_device.voxels, twin.voxels, kBlockVoxels, "(voxel, slot)"));
+  const auto seen = std::ranges::count_if(twin.voxels, [](const Voxel& voxel) { return voxel.weight > 0; });
+  expect_share(seen, static_cast<std::int64_t>(twin.voxels.size()), 0.05, 0.95, "seen voxels");
+}
+
+TEST_F(BackendsParity, TheOrderOfViewsDoesNotMatter) {
+  const auto gpu = vulkan();
+  const Input input = make_input(67, 45, 6);
+  FusionOptions options;
+  options.voxel_size = 0.05;
+  const BlockPool forward = fuse(*gpu, input, options, {0, 1, 2, 3});
+  const BlockPool other = fuse(*gpu, input, options, {2, 0, 3, 1});
+  ASSERT_TRUE(same_words(other.indices, forward.indices, 1, "block"));
+  ASSERT_TRUE(same_words(other.voxels, forward.voxels, kBlockVoxels, "(voxel, slot)"));
+  EXPECT_GT(std::ranges::count_if(forward.voxels, [](const Voxel& voxel) { return voxel.weight > 0; }), 1000);
+}
+
+TEST_F(BackendsParity, AnEmptyDepthMapCollectsNothing) {
+  const auto gpu = vulkan();
+  Input input = make_input(67, 45, 7);
+  for (DepthMap& map : input.maps) std::ranges::fill(map.depth.values, 0.0F);
+  const BlockPool pool = fuse(*gpu, input, {}, {0, 1, 2, 3});
+  EXPECT_TRUE(pool.indices.empty());
+  EXPECT_TRUE(pool.voxels.empty());
+}
+
+}  // namespace
+}  // namespace quorum

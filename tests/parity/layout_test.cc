@@ -1,0 +1,92 @@
+#include "shaders/layout.h"
+
+#include "tests/parity/parity_test.h"
+
+namespace quorum {
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+/// A struct of which every word is a number of its own, positive as int and normal as float.
+template <typename T>
+T numbered(std::uint32_t start = 0) {
+  std::array<std::uint32_t, sizeof(T) / 4> words;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    words[i] = 0x3f800000U + 0x1001U * (start + static_cast<std::uint32_t>(i));
+  return std::bit_cast<T>(words);
+}
+
+template <typename T>
+void append(Words& words, const T& member) {
+  const auto bits = std::bit_cast<std::array<std::uint32_t, sizeof(T) / 4>>(member);
+  words.insert(words.end(), bits.begin(), bits.end());
+}
+
+/// The members as C++ reads them.
+template <typename... Members>
+Words words_of(const Members&... members) {
+  Words words;
+  (append(words, members), ...);
+  return words;
+}
+
+class LayoutParity : public ParityTest {
+ protected:
+  template <typename Params>
+  static void compare(std::string_view probe, const Params& params, const Words& members) {
+    ASSERT_EQ(members.size() * 4, sizeof(Params)) << probe << ": a member is missing in the test";
+    const Buffer words = buffer_of(Words(members.size()));
+    run(test_kernel(probe), {}, params, {words});
+    same_words(content<std::uint32_t>(words), members, 1, std::string(probe));
+  }
+};
+
+TEST_F(LayoutParity, SweepParamsAreReadMemberByMember) {
+  const auto p = numbered<SweepParams>();
+  compare("probe_sweep_params", p,
+          words_of(p.warp.rotation, p.warp.offset, p.width, p.height, p.neighbor_width, p.neighbor_height, p.row_begin,
+                   p.row_count, p.first_plane, p.plane_stride, p.plane_count, p.ncc_offset));
+}
+
+TEST_F(LayoutParity, VoteParamsAreReadMemberByMember) {
+  const auto p = numbered<VoteParams>();
+  compare("probe_vote_params", p,
+          words_of(p.width, p.row_begin, p.row_count, p.first_plane, p.plane_stride, p.plane_count, p.neighbor_count,
+                   p.min_votes, p.threshold, p.confidence_scale, p.relative_planes));
+}
+
+TEST_F(LayoutParity, CollectParamsAreReadMemberByMember) {
+  const auto p = numbered<CollectParams>();
+  compare("probe_collect_params", p,
+          words_of(p.ray_from_pixel, p.origin, p.blocks, p.width, p.height, p.depth_step, p.steps, p.margin));
+}
+
+TEST_F(LayoutParity, IntegrateParamsAreReadMemberByMember) {
+  const auto p = numbered<IntegrateParams>();
+  compare("probe_integrate_params", p,
+          words_of(p.projection, p.inverse_focal_x, p.inverse_focal_y, p.principal_x, p.principal_y,
+                   p.inverse_truncation, p.width, p.height, p.list_begin, p.blocks, p.pool_begin));
+}
+
+TEST_F(LayoutParity, RangesAndVotesAreReadFromArrays) {
+  std::vector<PlaneRange> ranges;
+  std::vector<PixelVote> votes;
+  Words members;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const auto range = ranges.emplace_back(numbered<PlaneRange>(10 * i));
+    const auto vote = votes.emplace_back(numbered<PixelVote>(10 * i + 5));
+    const Words words = words_of(range.first, range.last, vote.correlation, vote.confidence, vote.plane);
+    members.insert(members.end(), words.begin(), words.end());
+  }
+  const Buffer words = buffer_of(Words(members.size()));
+  Commands commands = make_commands();
+  const Kernel probe = test_kernel("probe_storage");
+  const Buffer range_buffer = buffer_of(ranges);
+  const Buffer vote_buffer = buffer_of(votes);
+  commands.dispatch(probe, {}, {range_buffer, vote_buffer, words});
+  submit(commands);
+  same_words(content<std::uint32_t>(words), members, 1, "probe_storage");
+}
+
+}  // namespace
+}  // namespace quorum

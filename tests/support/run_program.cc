@@ -1,0 +1,74 @@
+#include "tests/support/run_program.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+namespace quorum {
+namespace {
+
+void redirect(const std::string& path, int descriptor) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  ::dup2(file, descriptor);
+  ::close(file);
+}
+
+}  // namespace
+
+Program::Program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                 const ProgramSetting& setting) {
+  const std::string out = (folder_.path() / "out").string();
+  const std::string err = (folder_.path() / "err").string();
+  std::string name = program.string();
+  std::vector<std::string> words = arguments;
+  std::vector<char*> pointers = {name.data()};
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+
+  process_ = ::fork();
+  if (process_ < 0) ADD_FAILURE() << "can't start " << name;
+  if (process_ != 0) return;
+  redirect(out, STDOUT_FILENO);
+  redirect(err, STDERR_FILENO);
+  ::setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
+  for (const auto& [variable, value] : setting.environment) ::setenv(variable.c_str(), value.c_str(), 1);
+  if (setting.file_size_limit > 0) {
+    const rlimit limit{setting.file_size_limit, setting.file_size_limit};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);  // the write fails instead
+  }
+  ::execv(name.c_str(), pointers.data());
+  ::_exit(127);
+}
+
+Program::~Program() {
+  if (process_ <= 0) return;
+  send(SIGKILL);
+  ::waitpid(process_, nullptr, 0);
+}
+
+void Program::send(int signal) const {
+  if (process_ > 0) ::kill(process_, signal);
+}
+
+ProgramResult Program::wait() {
+  int status = 0;
+  const bool ended = process_ > 0 && ::waitpid(process_, &status, 0) == process_;
+  process_ = -1;
+  const int code = !ended ? 127 : WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  return {code, file_bytes(folder_.path() / "out"), file_bytes(folder_.path() / "err")};
+}
+
+std::string file_bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace quorum

@@ -1,0 +1,49 @@
+// Runs a program as a user does, and keeps what it says.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/test_support.h"
+
+namespace quorum {
+
+struct ProgramSetting {
+  std::vector<std::pair<std::string, std::string>> environment = {};  ///< added to the test's own
+  std::uint64_t file_size_limit = 0;                                  ///< bytes that a file may have; 0 = no limit
+};
+
+/// exit_code: 128 + signal if a signal ended it, 127 if it could not be started.
+struct ProgramResult {
+  int exit_code = 0;
+  std::string out;
+  std::string err;
+};
+
+/// A program in a process of its own. Sanitized programs don't look for leaks: Vulkan drivers keep memory.
+class Program {
+ public:
+  Program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+          const ProgramSetting& setting = {});
+  ~Program();  ///< kills it if it still runs
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  void send(int signal) const;
+  /// Waits until it ends. Once.
+  ProgramResult wait();
+
+ private:
+  TemporaryFolder folder_;
+  pid_t process_ = -1;
+};
+
+/// All bytes of a file; empty if there is none.
+std::string file_bytes(const std::filesystem::path& path);
+
+}  // namespace quorum

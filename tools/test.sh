@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Builds Quorum twice and runs all tests: with address and undefined-behavior sanitizers, then optimized. Software Vulkan
+# (lavapipe) stands in where there is no GPU; a test that finds no device fails.
+#   bash tools/test.sh
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+
+bash tools/install_packages.sh || exit 1
+launcher=()
+command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+for preset in release debug; do
+  cmake --preset "$preset" "${launcher[@]}" || exit 1
+  cmake --build --preset "$preset" --parallel "$(nproc)" || exit 1
+done
+
+export QUORUM_REQUIRE_DEVICE=1
+export UBSAN_OPTIONS="print_stacktrace=1"
+failed=0
+for preset in debug release; do
+  echo
+  echo "Tests of the $preset build"
+  ctest --preset "$preset" --parallel 2 || failed=1
+done
+exit "$failed"
