@@ -15,7 +15,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "little-endian values are copied as they are");
 
-/// True if count rows of at least row_size bytes fit into size bytes.
+/// True if count rows of at least row_size bytes fit into size bytes. The header has refused rows without properties,
+/// so row_size is 0 only where count is.
 bool fits(std::uint64_t count, std::uint64_t row_size, std::uint64_t size) {
   return count == 0 || count <= size / row_size;
 }
