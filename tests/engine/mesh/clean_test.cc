@@ -147,5 +147,20 @@ TEST(CleanOptions, WhatIsOutOfRangeIsNamed) {
   }
 }
 
+TEST(AutomaticMinConfidence, IsAnEighthOfTheMedianUpToALimit) {
+  const auto with_confidences = [](std::vector<float> confidences) {
+    Mesh mesh;
+    for (const float confidence : confidences) {
+      mesh.vertices.emplace_back();
+      mesh.vertices.back().confidence = confidence;
+    }
+    return automatic_min_confidence(mesh);
+  };
+  EXPECT_FLOAT_EQ(with_confidences({0.9F, 0.08F, 0.01F}), 0.01F);
+  EXPECT_FLOAT_EQ(with_confidences({0.16F}), 0.02F);
+  EXPECT_FLOAT_EQ(with_confidences({5.0F, 5.0F, 0.01F}), 0.045F);
+  EXPECT_EQ(with_confidences({}), 0.0F);
+}
+
 }  // namespace
 }  // namespace quorum
