@@ -60,29 +60,6 @@ struct TilePlanes {
   }
 };
 
-/// The votes of a tile window by window, for the axis model, whose windows share no samples.
-void sweep_tile_window_by_window(const SweepTask& task, const Grid<PlaneRange>& ranges,
-                                 const std::vector<TilePlane>& planes, const VoteRule& rule, Grid<PixelVote>& votes) {
-  for (const TilePlane& part : planes) {
-    for (int y = part.y; y < part.y_end; ++y) {
-      for (int x = part.x; x < part.x_end; ++x) {
-        const PlaneRange& range = ranges.at(x, y);
-        if (static_cast<uint>(part.plane) < range.first || static_cast<uint>(part.plane) > range.last) continue;
-        float sum = 0.0F;
-        int count = 0;
-        for (int neighbor = 0; neighbor < task.neighbor_count(); ++neighbor) {
-          const float ncc = window_ncc(task, neighbor, x, y, part.plane);
-          if (ncc > rule.threshold) {
-            sum += ncc;
-            ++count;
-          }
-        }
-        votes.at(x, y) = vote(votes.at(x, y), sum, count, part.plane, rule);
-      }
-    }
-  }
-}
-
 }  // namespace
 
 float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane) {
@@ -137,10 +114,7 @@ Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& rang
                         std::min((row + 1) * cpu.tile_height, ranges.height)};
         tile_planes.collect(ranges, tile, stride);
         if (tile_planes.planes.empty()) continue;
-        if (task.options.window_model == WindowModel::kPlane)
-          sweep_tile(task, ranges, tile, tile_planes.planes, rule, cpu.simd, votes);
-        else
-          sweep_tile_window_by_window(task, ranges, tile_planes.planes, rule, votes);
+        sweep_tile(task, ranges, tile, tile_planes.planes, rule, cpu.simd, votes);
       }
     }
   });

@@ -1,8 +1,9 @@
 // How a tile is swept: per plane and neighbor, rows of the tile (with the windows' border) are warped one after the
 // other; each row's samples and products are summed along the row over the window's width, and these sums down the
-// column by adding the new row and taking off the one that left the window. All loops run along a row over plain
-// arrays, so that the compiler vectorizes them; the whole is compiled for three instruction sets and chosen at run
-// time.
+// column by adding the new row and taking off the one that left the window. Windows along the image axes share no
+// samples, but all samples of one lie at the same fractions of a pixel: a row of windows is summed sample by sample.
+// All loops run along a row over plain arrays, so that the compiler vectorizes them; the whole is compiled for three
+// instruction sets and chosen at run time.
 #include "engine/depth/sweep_tile.h"
 
 #include <algorithm>
@@ -40,6 +41,13 @@ struct Workspace {
   std::int32_t sample[kQuantities][kColumns];
   std::int32_t row_sum[kMaxWindow + 1][kQuantities][kMaxTileSide];  // of the rows in the window, in turn
   std::int32_t window_sum[kQuantities][kMaxTileSide];
+
+  // Of windows along the axes.
+  std::int32_t u[kColumns];  // position in the neighbor, 1/256 pixel
+  std::int32_t v[kColumns];
+  std::uint32_t window_texel[(kMaxWindow + 1) * (kMaxWindow + 1)][kMaxTileSide];
+  std::uint32_t along_red_blue[2][kMaxTileSide];  // of the row before and this one, interpolated along x
+  std::uint32_t along_green[2][kMaxTileSide];
 };
 
 /// The part of a tile that is swept on one plane: count_x × count_y windows, their first at (x, y) of the image and at
@@ -75,6 +83,8 @@ struct Part {
     const int iu = static_cast<int>(in ? u : 0.0F);
     const int iv = static_cast<int>(in ? v : 0.0F);
     inside[i] = in ? -1 : 0;
+    work.u[i] = iu;
+    work.v[i] = iv;
     work.fraction_x[i] = iu & (kPositionScale - 1);
     work.fraction_y[i] = iv & (kPositionScale - 1);
     work.texel_index[i] = (iv >> kPositionBits) * stride + (iu >> kPositionBits);
@@ -137,11 +147,11 @@ template <int kWindow>
   }
 }
 
-/// NCC of a row of windows from their sums, and the votes that follow. corner: rows of inside flags at the windows' top
-/// and bottom. Same operations as ncc_from_sums().
-template <int kWindow>
-[[gnu::always_inline]] inline void vote_row(int tile_x, int tile_y, int count, const std::int32_t* top_inside,
-                                            const std::int32_t* bottom_inside, float threshold, Workspace& work) {
+/// NCC of a row of windows from their sums, and the votes that follow. is_seen(i): not 0 if the neighbor sees all of
+/// window i. Same operations as ncc_from_sums().
+template <int kWindow, typename IsSeen>
+[[gnu::always_inline]] inline void vote_row(int tile_x, int tile_y, int count, IsSeen is_seen, float threshold,
+                                            Workspace& work) {
   constexpr double kSamples = kWindow * kWindow;
   const std::int32_t* a_red = work.reference_sum[0][tile_y] + tile_x;
   const std::int32_t* a_green = work.reference_sum[1][tile_y] + tile_x;
@@ -159,9 +169,7 @@ template <int kWindow>
         float_from_integer(kSamples * work.window_sum[kSquares][i] - (red * red + green * green + blue * blue));
     float ncc = (covariance * inverse_deviation[i]) * reciprocal_sqrt(variance);
     ncc = ncc < 1.0F ? ncc : 1.0F;
-    const std::int32_t seen =
-        top_inside[i] & top_inside[i + kWindow - 1] & bottom_inside[i] & bottom_inside[i + kWindow - 1];
-    const bool hit = (ncc > threshold) & (seen != 0);
+    const bool hit = (ncc > threshold) & (is_seen(i) != 0);
     ncc_sum[i] += hit ? ncc : 0.0F;
     votes[i] += hit ? 1 : 0;
   }
@@ -187,9 +195,87 @@ template <int kWindow>
       const bool full = row >= kWindow;
       for (int i = 0; i < part.count_x; ++i) sum[i] += entering[quantity][i] - (full ? leaving[quantity][i] : 0);
     }
-    if (row >= kWindow - 1)
-      vote_row<kWindow>(part.tile_x, part.tile_y + row - (kWindow - 1), part.count_x, work.inside[row - (kWindow - 1)],
-                        inside, threshold, work);
+    if (row < kWindow - 1) continue;
+    const std::int32_t* top = work.inside[row - (kWindow - 1)];
+    const auto corners_inside = [&](int i) {
+      return top[i] & top[i + kWindow - 1] & inside[i] & inside[i + kWindow - 1];
+    };
+    vote_row<kWindow>(part.tile_x, part.tile_y + row - (kWindow - 1), part.count_x, corners_inside, threshold, work);
+  }
+}
+
+/// Sums of a row of windows along the image axes around the positions in work. inside: which windows the neighbor sees;
+/// the others are taken somewhere in the image.
+template <int kWindow>
+[[gnu::always_inline]] inline void sum_axis_windows(const PaddedImage& image, const std::int32_t* inside, int tile_x,
+                                                    int tile_y, int count, int shift, Workspace& work) {
+  constexpr std::uint32_t kRedBlue = 0x00ff00ffU;
+  constexpr int kRadius = kWindow / 2;
+  constexpr int kTexels = kWindow + 1;  // along a side
+  const std::int32_t center = 1 << (23 - shift);
+  const std::ptrdiff_t stride = image.stride();
+  for (int i = 0; i < count; ++i) {
+    const std::ptrdiff_t first = inside[i] != 0 ? work.texel_index[i] - kRadius * stride - kRadius : 0;
+    const Rgba* texel = image.pixels.data() + first;
+    for (int row = 0; row < kTexels; ++row)
+      for (int column = 0; column < kTexels; ++column)
+        work.window_texel[row * kTexels + column][i] = texel[row * stride + column];
+  }
+  for (auto& sums : work.window_sum) std::fill_n(sums, count, 0);
+  for (int column = 0; column < kWindow; ++column) {
+    for (int row = 0; row < kTexels; ++row) {
+      const std::uint32_t* left = work.window_texel[row * kTexels + column];
+      const std::uint32_t* right = work.window_texel[row * kTexels + column + 1];
+      std::uint32_t* red_blue = work.along_red_blue[row % 2];
+      std::uint32_t* green = work.along_green[row % 2];
+      for (int i = 0; i < count; ++i) {
+        const auto fraction = static_cast<std::uint32_t>(work.fraction_x[i]);
+        const std::uint32_t left_red_blue = left[i] & kRedBlue;
+        red_blue[i] = (left_red_blue << 8) + ((right[i] & kRedBlue) - left_red_blue) * fraction;
+        green[i] = (green_of(left[i]) << 8) + (green_of(right[i]) - green_of(left[i])) * fraction;
+      }
+      if (row == 0) continue;
+      const std::uint32_t* red_blue_above = work.along_red_blue[(row + 1) % 2];
+      const std::uint32_t* green_above = work.along_green[(row + 1) % 2];
+      const std::int32_t* a_red = work.reference[0][tile_y + row - 1] + tile_x + column;
+      const std::int32_t* a_green = work.reference[1][tile_y + row - 1] + tile_x + column;
+      const std::int32_t* a_blue = work.reference[2][tile_y + row - 1] + tile_x + column;
+      for (int i = 0; i < count; ++i) {
+        const auto along_y = [&](std::uint32_t top, std::uint32_t bottom) {
+          const auto fraction = static_cast<std::uint32_t>(work.fraction_y[i]);
+          return static_cast<std::int32_t>(((top << 8) + (bottom - top) * fraction) >> shift) - center;
+        };
+        const std::int32_t b_red = along_y(red_blue_above[i] & 0xffffU, red_blue[i] & 0xffffU);
+        const std::int32_t b_green = along_y(green_above[i], green[i]);
+        const std::int32_t b_blue = along_y(red_blue_above[i] >> 16, red_blue[i] >> 16);
+        work.window_sum[kRed][i] += b_red;
+        work.window_sum[kGreen][i] += b_green;
+        work.window_sum[kBlue][i] += b_blue;
+        work.window_sum[kSquares][i] += b_red * b_red + b_green * b_green + b_blue * b_blue;
+        work.window_sum[kProducts][i] += a_red[i] * b_red + a_green[i] * b_green + a_blue[i] * b_blue;
+      }
+    }
+  }
+}
+
+/// As sweep_part, with the paper's windows along the image axes around the projection of the reference pixel.
+template <int kWindow>
+[[gnu::always_inline]] inline void sweep_axis_part(const PlaneWarp& warp, const PaddedImage& image, float inverse_depth,
+                                                   const Part& part, int shift, float threshold, Workspace& work) {
+  constexpr int kMargin = kWindow / 2 * kPositionScale;
+  if (image.width < kWindow || image.height < kWindow) return;
+  const int last_u = (image.width - 1) * kPositionScale - kMargin;
+  const int last_v = (image.height - 1) * kPositionScale - kMargin;
+  for (int row = 0; row < part.count_y; ++row) {
+    std::int32_t* inside = work.inside[row];
+    warp_row(warp, inverse_depth, image, part.x, part.y + row, part.count_x, inside, work);
+    for (int i = 0; i < part.count_x; ++i) {
+      const bool in = (work.u[i] >= kMargin) & (work.v[i] >= kMargin) & (work.u[i] <= last_u) & (work.v[i] <= last_v);
+      inside[i] &= in ? -1 : 0;
+    }
+    sum_axis_windows<kWindow>(image, inside, part.tile_x, part.tile_y + row, part.count_x, shift, work);
+    vote_row<kWindow>(
+        part.tile_x, part.tile_y + row, part.count_x, [&](int i) { return inside[i]; }, threshold, work);
   }
 }
 
@@ -252,9 +338,14 @@ template <int kWindow>
       std::fill_n(work.votes[y] + part.tile_x, part.count_x, 0);
     }
     const float inverse_depth = task.planes.inverse_depth[static_cast<std::size_t>(plane.plane)];
-    for (std::size_t neighbor = 0; neighbor < task.neighbors.size(); ++neighbor)
-      sweep_part<kWindow>(task.warps[neighbor], *task.neighbors[neighbor], inverse_depth, part, shift, rule.threshold,
-                          work);
+    for (std::size_t neighbor = 0; neighbor < task.neighbors.size(); ++neighbor) {
+      const PlaneWarp& warp = task.warps[neighbor];
+      const PaddedImage& image = *task.neighbors[neighbor];
+      if (task.options.window_model == WindowModel::kPlane)
+        sweep_part<kWindow>(warp, image, inverse_depth, part, shift, rule.threshold, work);
+      else
+        sweep_axis_part<kWindow>(warp, image, inverse_depth, part, shift, rule.threshold, work);
+    }
     const auto index = static_cast<uint>(plane.plane);
     for (int y = 0; y < part.count_y; ++y) {
       const PlaneRange* range = ranges.row(plane.y + y) + plane.x;

@@ -1,5 +1,5 @@
-// The sweep of one tile of the reference view with windows that share their samples: each sample of a neighbor is
-// warped once per plane, and all windows that contain it take it from running sums.
+// The sweep of one tile of the reference view. Windows on the plane of equal depth share their samples: each sample of
+// a neighbor is warped once per plane, and all windows that contain it take it from running sums.
 #pragma once
 
 #include <vector>
@@ -28,9 +28,9 @@ struct TilePlane {
   int y_end = 0;
 };
 
-/// Votes for the given planes, ascending, at the pixels of a tile whose range holds them. Window model kPlane only.
-/// Every window of the tile whose range is not empty lies in the reference image. Equal to window_ncc and vote, byte by
-/// byte, at every SIMD level.
+/// Votes for the given planes, ascending, at the pixels of a tile whose range holds them. Every window of the tile
+/// whose range is not empty lies in the reference image. Equal to window_ncc and vote, byte by byte, at every SIMD
+/// level.
 void sweep_tile(const SweepTask& task, const Grid<PlaneRange>& ranges, const Tile& tile,
                 const std::vector<TilePlane>& planes, const VoteRule& rule, SimdLevel simd, Grid<PixelVote>& votes);
 

@@ -114,6 +114,24 @@ TEST(SweepDepth, SharedSamplesGiveTheSameBytesAsSingleWindows) {
   }
 }
 
+TEST(SweepDepth, RowsOfAxisWindowsGiveTheSameBytesAsSingleWindows) {
+  const SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, false, 2);
+  for (const int window : {3, 5, 9, 15}) {
+    SweepOptions options;
+    options.window = window;
+    options.window_model = WindowModel::kAxis;
+    options.step_pixels = 2.0;
+    const SweepTask task = make_sphere_task(sphere, 1, options);
+    const auto expected = sweep_by_windows(task, task.ranges, task.planes.refinement);
+    for (const SimdLevel simd : {SimdLevel::kBaseline, SimdLevel::kAvx2, SimdLevel::kAvx512}) {
+      if (simd > best_simd_level()) continue;
+      expect_equal(sweep_planes(task, task.ranges, task.planes.refinement, {simd, 37, 11}), expected);
+    }
+    const auto ranges = refine_ranges(expected, task.planes);
+    expect_equal(sweep_planes(task, ranges, 1, {}), sweep_by_windows(task, ranges, 1));
+  }
+}
+
 TEST(SweepDepth, TilesThreadsAndInstructionsDoNotChangeTheBytes) {
   const SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, true, 3);
   const SweepTask task = make_sphere_task(sphere, 1, {});
