@@ -39,6 +39,11 @@ const uint kCellFirstTriangle = 1u;   // 0-1-2, or 1-3-0
 const uint kCellSecondTriangle = 2u;  // 3-2-1, or 2-0-3
 const uint kCellSplitAlong03 = 4u;
 
+// Factors of a vertex's weight, as bits.
+const uint kWeighConfidence = 1u;
+const uint kWeighSlant = 2u;
+const uint kWeighBorder = 4u;
+
 // Where the pixels of a view land in a neighbor on the plane at inverse depth w:
 // (x', y', 1) ~ rotation * (x, y, 1) + offset * w.
 struct PlaneWarp {
@@ -112,8 +117,9 @@ struct WeighSurfaceParams {
   float principal_y;
   float max_step;  // as in RangeSurfaceParams
   int feather;     // pixels over which the weight rises from a border of the surface
+  uint factors;    // kWeigh… bits
 };
-QUORUM_SIZE(WeighSurfaceParams, 32);
+QUORUM_SIZE(WeighSurfaceParams, 36);
 
 // collect_blocks: which voxel blocks lie within the truncation of a range surface. Points are in blocks of the grid.
 struct CollectParams {

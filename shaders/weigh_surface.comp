@@ -70,6 +70,9 @@ void main() {
   precise float ray_squared = rx * rx + (ry * ry + 1.0);
   precise float cosine = (d * reciprocal_sqrt(normal_squared)) * reciprocal_sqrt(ray_squared);
   precise float ramp = float(border_distance(x, y) + 1) * reciprocal(float(p.feather + 1));
-  precise float weight = ((confidence[pixel] * cosine) * (ramp * ramp)) * float(kWeightScale) + 0.5;
+  float confidence_factor = (p.factors & kWeighConfidence) != 0u ? confidence[pixel] : 1.0;
+  float slant_factor = (p.factors & kWeighSlant) != 0u ? cosine : 1.0;
+  precise float border_factor = (p.factors & kWeighBorder) != 0u ? ramp * ramp : 1.0;
+  precise float weight = ((confidence_factor * slant_factor) * border_factor) * float(kWeightScale) + 0.5;
   weights[pixel] = uint(clamp(int(weight), 1, kWeightScale));
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <thread>
@@ -76,6 +77,10 @@ Expected<void> resolve(RunArguments& arguments) {
                              length("--voxel-size", arguments.voxel_size, options.fusion.voxel_size),
                              length("--truncation", arguments.truncation, options.fusion.truncation)})
     if (!parsed) return parsed;
+  const auto weighs_by = [&](const char* factor) { return std::ranges::count(arguments.weights, factor) > 0; };
+  options.fusion.weigh_confidence = weighs_by("confidence");
+  options.fusion.weigh_slant = weighs_by("slant");
+  options.fusion.weigh_border = weighs_by("border");
   options.automatic_confidence = arguments.min_confidence == "auto";
   if (!options.automatic_confidence) {
     const char* end = arguments.min_confidence.data() + arguments.min_confidence.size();
@@ -155,6 +160,11 @@ void RunArguments::add_fusion_options(CLI::App& app) {
       ->capture_default_str()
       ->group(group);
   app.add_option("--feather", options.fusion.feather, "Pixels over which weights rise from a border")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--weights", weights, "What a depth's weight is made of: confidence, slant, border; or none")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"confidence", "slant", "border", "none"}))
       ->capture_default_str()
       ->group(group);
   app.add_option("--min-confidence", min_confidence,

@@ -25,6 +25,7 @@ struct RunArguments {
   std::string depth_step = "auto";
   std::string voxel_size = "auto";
   std::string truncation = "auto";
+  std::vector<std::string> weights = {"confidence", "slant", "border"};
   std::string min_confidence = "auto";
   bool quiet = false;
   bool json = false;

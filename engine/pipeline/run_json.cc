@@ -9,7 +9,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json options_json(const ReconstructOptions& options) {
+/// The factors of a vertex's weight, as --weights takes them.
+Json weights_json(const FusionOptions& fusion) {
+  Json factors = Json::array();
+  if (fusion.weigh_confidence) factors.push_back("confidence");
+  if (fusion.weigh_slant) factors.push_back("slant");
+  if (fusion.weigh_border) factors.push_back("border");
+  return factors;
+}
+
+Json json_of(const ReconstructOptions& options) {
   const auto automatic = [](double length) { return length > 0 ? Json(length) : Json("auto"); };
   return {{"neighbors", options.views.neighbor_count},
           {"min_angle_deg", options.views.min_angle_deg},
@@ -26,12 +35,15 @@ Json options_json(const ReconstructOptions& options) {
           {"truncation", automatic(options.fusion.truncation)},
           {"max_slope_deg", options.fusion.max_slope_deg},
           {"feather", options.fusion.feather},
+          {"weights", weights_json(options.fusion)},
           {"min_confidence", options.automatic_confidence ? Json("auto") : Json(options.clean.min_confidence)},
           {"min_component", options.clean.min_component_triangles},
           {"largest_component", options.clean.largest_component}};
 }
 
 }  // namespace
+
+std::string options_json(const ReconstructOptions& options) { return json_of(options).dump(2) + "\n"; }
 
 std::string run_json(const Scene& scene, const ReconstructOptions& options, const RunReport& report) {
   Json stages = Json::array();
@@ -52,7 +64,7 @@ std::string run_json(const Scene& scene, const ReconstructOptions& options, cons
       {"version", version()},
       {"device", report.device},
       {"scene", {{"views", scene.views.size()}, {"bounds", {point(scene.bounds.low), point(scene.bounds.high)}}}},
-      {"options", options_json(options)},
+      {"options", json_of(options)},
       {"stages", stages},
       {"kernels", kernels},
       {"peak_memory_bytes", peak_memory_bytes()},

@@ -8,6 +8,9 @@
 
 namespace quorum {
 
+/// The options as indented JSON text, each under its name on the command line with _ for -. Lengths are in scene units.
+std::string options_json(const ReconstructOptions& options);
+
 /// The report as indented JSON text. Lengths are in scene units, times in seconds, memory in bytes.
 std::string run_json(const Scene& scene, const ReconstructOptions& options, const RunReport& report);
 

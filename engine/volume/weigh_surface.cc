@@ -60,7 +60,9 @@ WeighSurfaceParams make_weigh_surface_params(const Camera& camera, int width, in
           static_cast<float>(k(0, 2)),
           static_cast<float>(k(1, 2)),
           make_range_surface_params(camera, width, height, options).max_step,
-          options.feather};
+          options.feather,
+          (options.weigh_confidence ? kWeighConfidence : 0U) | (options.weigh_slant ? kWeighSlant : 0U) |
+              (options.weigh_border ? kWeighBorder : 0U)};
 }
 
 Grid<std::uint32_t> weigh_surface(const Grid<float>& depth, const Grid<float>& confidence,
@@ -85,7 +87,11 @@ Grid<std::uint32_t> weigh_surface(const Grid<float>& depth, const Grid<float>& c
       const float ray_squared = rx * rx + (ry * ry + 1.0F);
       const float cosine = (d * reciprocal_sqrt(normal_squared)) * reciprocal_sqrt(ray_squared);
       const float ramp = static_cast<float>(border_distance(cells, x, y, params.feather) + 1) * feather_scale;
-      const float weight = ((confidence.at(x, y) * cosine) * (ramp * ramp)) * static_cast<float>(kWeightScale) + 0.5F;
+      const float confidence_factor = (params.factors & kWeighConfidence) != 0 ? confidence.at(x, y) : 1.0F;
+      const float slant_factor = (params.factors & kWeighSlant) != 0 ? cosine : 1.0F;
+      const float border_factor = (params.factors & kWeighBorder) != 0 ? ramp * ramp : 1.0F;
+      const float weight =
+          ((confidence_factor * slant_factor) * border_factor) * static_cast<float>(kWeightScale) + 0.5F;
       weights.at(x, y) = static_cast<std::uint32_t>(std::clamp(static_cast<int>(weight), 1, kWeightScale));
     }
   });

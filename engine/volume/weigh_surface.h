@@ -1,6 +1,6 @@
 // The weights of a range surface's vertices: the confidence, times the cosine of the angle between surface and line of
 // sight, times the square of a ramp that falls toward borders of the surface (the paper, section 2.2; Curless and Levoy
-// 1996). Twin of shaders/weigh_surface.comp.
+// 1996). Each factor can be left out. Twin of shaders/weigh_surface.comp.
 #pragma once
 
 #include "engine/volume/range_surface.h"

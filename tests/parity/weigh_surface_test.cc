@@ -18,6 +18,9 @@ TEST_F(WeighSurfaceParity, NoisyMapsGiveTheBytesOfTheTwin) {
       FusionOptions options;
       options.feather = feather;
       options.max_slope_deg = seed == 1 ? 85 : 70;
+      options.weigh_confidence = !(seed == 2 && feather == 1);
+      options.weigh_slant = !(seed == 2 && feather == 4);
+      options.weigh_border = !(seed == 2 && feather == 8);
       const auto cells =
           range_surface(map.depth, make_range_surface_params(view.camera, view.width, view.height, options));
       const auto params = make_weigh_surface_params(view.camera, view.width, view.height, options);

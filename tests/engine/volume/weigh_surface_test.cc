@@ -95,6 +95,20 @@ TEST(WeighSurface, IsProportionalToTheConfidence) {
   }
 }
 
+TEST(WeighSurface, FactorsCanBeLeftOut) {
+  const Camera camera = straight_camera(kSide, kSide, 1000);
+  const auto grazing = plane_depth(camera, kSide, kSide, 2.0, 60);
+  FusionOptions options;
+  EXPECT_NEAR(weigh(camera, grazing, 0.5F, options).at(kCenter, kCenter), 64, 1);
+  options.weigh_confidence = false;
+  EXPECT_NEAR(weigh(camera, grazing, 0.5F, options).at(kCenter, kCenter), 128, 1);
+  options.weigh_slant = false;
+  EXPECT_EQ(weigh(camera, grazing, 0.5F, options).at(kCenter, kCenter), 255U);
+  EXPECT_LT(weigh(camera, grazing, 0.5F, options).at(0, kCenter), 20U);
+  options.weigh_border = false;
+  EXPECT_EQ(weigh(camera, grazing, 0.5F, options).at(0, kCenter), 255U);
+}
+
 TEST(WeighSurface, IsZeroOffTheSurfaceAndAtLeastOneOnIt) {
   const Camera camera = straight_camera(9, 9, 1000);
   Grid<float> depth(9, 9, 0.0F);
