@@ -71,7 +71,7 @@ Expected<void> TempleOptions::check() const {
   };
   for (const Range& range :
        {Range{"views", static_cast<double>(views), 3, 1024}, Range{"width", static_cast<double>(width), 64, 8192},
-        Range{"noise", noise, 0, 64}, Range{"texture", texture, 0, 4}}) {
+        Range{"noise", noise, 0, 64}, Range{"texture", texture, 0, 4}, Range{"gloss", gloss, 0, 1}}) {
     if (range.value >= range.low && range.value <= range.high) continue;
     return failure(ErrorKind::kUsage,
                    fmt::format("--{} {}: give {} to {}", range.name, range.value, range.low, range.high));

@@ -13,12 +13,17 @@ namespace quorum {
 
 enum class CameraPath { kRing, kHemisphere };
 
+/// kPerView: for each photograph the lights stand elsewhere and shine otherwise, as with the paper's skull (4.5).
+enum class Lighting { kFixed, kPerView };
+
 struct TempleOptions {
   int views = 16;  ///< 3..1024
   CameraPath path = CameraPath::kRing;
   int width = 640;       ///< pixels, 64..8192; the height is 3/4 of it
   double noise = 1.5;    ///< standard deviation of the sensor noise, gray levels, 0..64
   double texture = 1.0;  ///< strength of the stone texture, 0..4; 0 = plain plaster
+  double gloss = 0.0;    ///< strength of the highlights, 0..1; 0 = diffuse stone
+  Lighting lighting = Lighting::kFixed;
   std::uint64_t seed = 1;
 
   /// Names the first option that is out of its range, and the range. kUsage.

@@ -274,6 +274,38 @@ TEST(RenderTemple, NoiseHasItsStandardDeviation) {
   EXPECT_NEAR(std::sqrt(sum_of_squares / count), 5, 0.4);
 }
 
+TEST(RenderTemple, GlossAddsHighlightsAlone) {
+  TempleOptions options = small_options();
+  options.noise = 0;
+  const ColorImage diffuse = render_with_threads(2, options);
+  options.gloss = 0.6;
+  const ColorImage glossy = render_with_threads(2, options);
+  int brighter = 0;
+  for (std::size_t i = 0; i < diffuse.values.size(); ++i) {
+    EXPECT_GE(blue_of(glossy.values[i]), blue_of(diffuse.values[i]));
+    brighter += blue_of(glossy.values[i]) > blue_of(diffuse.values[i]) + 10 ? 1 : 0;
+  }
+  EXPECT_GT(brighter, 50);
+  EXPECT_LT(brighter, static_cast<int>(diffuse.values.size()) / 4);
+}
+
+TEST(RenderTemple, LightsPerViewDifferBetweenTwinCameras) {
+  TempleOptions options = small_options();
+  options.noise = 0;
+  Scene scene = make_temple_scene(options);
+  scene.views[1].camera = scene.views[0].camera;
+  EXPECT_EQ(render_temple(scene, 0, options), render_temple(scene, 1, options));
+  options.lighting = Lighting::kPerView;
+  const ColorImage first = render_temple(scene, 0, options);
+  const ColorImage second = render_temple(scene, 1, options);
+  EXPECT_EQ(first, render_temple(scene, 0, options));
+  int different = 0;
+  for (std::size_t i = 0; i < first.values.size(); ++i)
+    different +=
+        std::abs(static_cast<int>(green_of(first.values[i])) - static_cast<int>(green_of(second.values[i]))) > 8;
+  EXPECT_GT(different, 300);
+}
+
 TEST(RenderTemple, TextureSticksToTheSurface) {
   TempleOptions options;
   options.width = 320;

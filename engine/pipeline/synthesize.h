@@ -1,0 +1,15 @@
+// A synthetic scene as a folder that the other commands read.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/core/error.h"
+#include "engine/synthetic/temple.h"
+
+namespace quorum {
+
+/// Renders the temple into a Middlebury folder: photographs, temple_par.txt, README.txt with the bounds, and the exact
+/// surface gt.ply. Makes the folder. Fails (kUsage) on options out of range and (kInput) if a file can't be written.
+Expected<void> synthesize_temple(const std::filesystem::path& folder, const TempleOptions& options);
+
+}  // namespace quorum
