@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "engine/io/image_file.h"
 #include "tests/tools/tool_test.h"
 
 namespace quorum {
@@ -221,6 +222,20 @@ TEST_F(Reconstruct, RenderDrawsTheMesh) {
     EXPECT_GT(pictures.back().size(), 2000U);
   }
   EXPECT_NE(pictures[0], pictures[1]);
+}
+
+TEST_F(Reconstruct, RenderByErrorDrawsTheTruthItselfInBlue) {
+  const std::string truth = (scene() / "gt.ply").string();
+  const auto picture = below("error.png");
+  const ProgramResult drawn =
+      quorum_program({"render", truth, "--scene", scene().string(), "--view", "temple0002", "--shading", "error",
+                      "--truth", truth, "--full-error", "1mm", "-o", picture.string()});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  const ColorImage image = read_image(picture).value();
+  const auto is_blue = [](Rgba pixel) { return blue_of(pixel) > red_of(pixel) + 100; };
+  EXPECT_GT(std::ranges::count_if(image.values, is_blue), 1000);
+  const auto is_red = [](Rgba pixel) { return red_of(pixel) > blue_of(pixel) + 50; };
+  EXPECT_EQ(std::ranges::count_if(image.values, is_red), 0);
 }
 
 }  // namespace
