@@ -16,6 +16,7 @@ int fuse_command(int argc, char** argv);
 int evaluate_command(int argc, char** argv);
 int render_command(int argc, char** argv);
 int synthesize_command(int argc, char** argv);
+int experiment_command(int argc, char** argv);
 int devices_command(int argc, char** argv);
 
 /// Parses the arguments into app and, if they are right, runs work. A failure is printed as one line "command: …" on

@@ -250,6 +250,33 @@ TEST_F(BadInput, RenderNamesTheViewsThatThereAre) {
   EXPECT_FALSE(std::filesystem::exists(below("a.png")));
 }
 
+TEST_F(BadInput, RenderByErrorNeedsTheTruth) {
+  const std::string mesh = (scene() / "gt.ply").string();
+  const std::vector<std::string> arguments = {
+      "render",    mesh,    "--scene", scene().string(),       "--view", "temple0001",
+      "--shading", "error", "-o",      below("a.png").string()};
+  expect_failure(quorum_program(arguments), 2, {"--shading error", "--truth"});
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), arguments.begin(), arguments.end());
+    return quorum_program(more);
+  };
+  expect_failure(with({"--truth", below("none.ply").string()}), 3, {"none.ply"});
+  expect_failure(with({"--truth", mesh, "--full-error", "-1"}), 2, {"--full-error"});
+  EXPECT_FALSE(std::filesystem::exists(below("a.png")));
+}
+
+TEST_F(BadInput, ExperimentNamesWhatItKnowsAndWhatItMisses) {
+  expect_failure(quorum_program({"experiment", "colors", "-o", result().string(), "--device", "cpu"}), 2,
+                 {"colors: no such experiment", "window", "threshold"});
+  expect_failure(quorum_program({"experiment", "window", "-o", result().string(), "--threads", "-1"}), 2,
+                 {"--threads -1"});
+  expect_failure(quorum_program({"experiment", "-o", result().string()}), 2, {"names"});
+  write_text(below("file"), "");
+  expect_failure(
+      quorum_program({"experiment", "window", "-o", (below("file") / "x").string(), "--device", "cpu", "--quiet"}), 3,
+      {"file/x"});
+}
+
 TEST_F(BadInput, EvaluateNamesTheFileThatIsMissingOrDamaged) {
   const std::string truth = (scene() / "gt.ply").string();
   expect_failure(quorum_program({"evaluate", below("none.ply").string(), truth}), 3, {"none.ply", "check the path"});

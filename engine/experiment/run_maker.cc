@@ -1,0 +1,310 @@
+#include "engine/experiment/run_maker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/version.h"
+#include "engine/experiment/pictures.h"
+#include "engine/io/file.h"
+#include "engine/io/ply.h"
+#include "engine/pipeline/run_json.h"
+
+namespace quorum {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// FNV-1a (Fowler, Noll, Vo), 64 bits.
+class Digest {
+ public:
+  void add(const void* bytes, std::size_t count) {
+    const auto* at = static_cast<const unsigned char*>(bytes);
+    for (std::size_t i = 0; i < count; ++i) value_ = (value_ ^ at[i]) * 0x100000001b3ULL;
+  }
+  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", value_); }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+std::string digest_of(const std::string& text) {
+  Digest digest;
+  digest.add(text.data(), text.size());
+  return digest.text();
+}
+
+/// Of names, cameras and bounds.
+std::string digest_of(const Scene& scene) {
+  Digest digest;
+  for (const View& view : scene.views) {
+    digest.add(view.name.data(), view.name.size());
+    digest.add(view.camera.intrinsics.data(), sizeof(double) * 9);
+    digest.add(view.camera.camera_from_world.data(), sizeof(double) * 9);
+    digest.add(view.camera.translation.data(), sizeof(double) * 3);
+  }
+  digest.add(scene.bounds.low.data(), sizeof(double) * 3);
+  digest.add(scene.bounds.high.data(), sizeof(double) * 3);
+  return digest.text();
+}
+
+/// All that the depth maps of a run depend on, and what only the mesh does.
+struct Identity {
+  Json depth;
+  Json fusion;
+
+  [[nodiscard]] std::string text() const { return Json{{"depth", depth}, {"fusion", fusion}}.dump(); }
+};
+
+Identity identity_of(const OpenScene& scene, const RunSettings& settings) {
+  constexpr const char* kFusionOptions[] = {"voxel_size", "truncation",     "max_slope_deg", "feather",
+                                            "weights",    "min_confidence", "min_component", "largest_component"};
+  Identity identity;
+  identity.depth = {{"version", version()},
+                    {"scene", digest_of(scene.scene)},
+                    {"first_views", settings.first_views},
+                    {"options", Json::parse(options_json(settings.options))}};
+  for (const char* name : kFusionOptions) {
+    Json& options = identity.depth["options"];
+    identity.fusion[name] = options[name];
+    options.erase(name);
+  }
+  return identity;
+}
+
+std::string run_id(const RunRecord& record) { return fmt::format("{}-{}", record.scene, digest_of(record.identity)); }
+
+template <typename T>
+Json json_or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+std::optional<double> number_or_none(const Json& value) {
+  return value.is_null() ? std::nullopt : std::optional(value.get<double>());
+}
+
+Json json_of(const DepthMeasures& depth) {
+  return {{"views", depth.views},
+          {"swept_pixels", depth.swept_pixels},
+          {"valid_pixels", depth.valid_pixels},
+          {"depth_samples", depth.depth_samples},
+          {"loose_pixels", depth.loose_pixels},
+          {"background_pixels", depth.background_pixels},
+          {"roughness", depth.roughness},
+          {"correlation", depth.correlation},
+          {"confidence", depth.confidence},
+          {"median_error", json_or_null(depth.median_error)},
+          {"wrong_share", json_or_null(depth.wrong_share)}};
+}
+
+DepthMeasures depth_measures(const Json& json) {
+  DepthMeasures depth;
+  json.at("views").get_to(depth.views);
+  json.at("swept_pixels").get_to(depth.swept_pixels);
+  json.at("valid_pixels").get_to(depth.valid_pixels);
+  json.at("depth_samples").get_to(depth.depth_samples);
+  json.at("loose_pixels").get_to(depth.loose_pixels);
+  json.at("background_pixels").get_to(depth.background_pixels);
+  json.at("roughness").get_to(depth.roughness);
+  json.at("correlation").get_to(depth.correlation);
+  json.at("confidence").get_to(depth.confidence);
+  depth.median_error = number_or_none(json.at("median_error"));
+  depth.wrong_share = number_or_none(json.at("wrong_share"));
+  return depth;
+}
+
+Json json_of(const MeshScore& mesh) {
+  Json json = {{"vertices", mesh.vertices}, {"triangles", mesh.triangles}};
+  if (!mesh.evaluation) return json;
+  json["accuracy"] = mesh.evaluation->accuracy;
+  json["median_accuracy"] = mesh.evaluation->median_accuracy;
+  json["mean_accuracy"] = mesh.evaluation->mean_accuracy;
+  json["completeness"] = mesh.evaluation->completeness;
+  for (const FScore& score : mesh.evaluation->f_scores)
+    json["f_scores"].push_back(
+        {{"distance", score.distance}, {"precision", score.precision}, {"recall", score.recall}, {"f", score.f}});
+  return json;
+}
+
+MeshScore mesh_score(const Json& json) {
+  MeshScore mesh{json.at("vertices").get<std::uint64_t>(), json.at("triangles").get<std::uint64_t>(), std::nullopt};
+  if (!json.contains("accuracy")) return mesh;
+  Evaluation& evaluation = mesh.evaluation.emplace();
+  json.at("accuracy").get_to(evaluation.accuracy);
+  json.at("median_accuracy").get_to(evaluation.median_accuracy);
+  json.at("mean_accuracy").get_to(evaluation.mean_accuracy);
+  json.at("completeness").get_to(evaluation.completeness);
+  for (const Json& score : json.at("f_scores"))
+    evaluation.f_scores.push_back({score.at("distance").get<double>(), score.at("precision").get<double>(),
+                                   score.at("recall").get<double>(), score.at("f").get<double>()});
+  return mesh;
+}
+
+/// Passes on the wish to stop and nothing else: a run is one step of the experiment's progress.
+class SilentProgress : public Progress {
+ public:
+  explicit SilentProgress(const Progress& outer) : outer_(outer) {}
+  [[nodiscard]] bool stop_requested() const override { return outer_.stop_requested(); }
+
+ private:
+  const Progress& outer_;
+};
+
+/// The scene with its first views alone.
+OpenScene first_views(OpenScene scene, int count) {
+  if (count > 0 && static_cast<std::size_t>(count) < scene.scene.views.size())
+    scene.scene.views.resize(static_cast<std::size_t>(count));
+  return scene;
+}
+
+/// True if some view has the two neighbors that a depth map takes.
+bool can_find_depth(const Scene& scene, const SelectViewsOptions& options) {
+  for (int view = 0; view < static_cast<int>(scene.views.size()); ++view)
+    if (select_views(scene, view, options).size() >= 2) return true;
+  return false;
+}
+
+void add_times(const RunReport& report, double& wall_seconds, double& cpu_seconds) {
+  for (const StageReport& stage : report.stages) {
+    wall_seconds += stage.wall_seconds;
+    cpu_seconds += stage.cpu_seconds;
+  }
+}
+
+}  // namespace
+
+std::string record_json(const RunRecord& record) {
+  const Json json = {{"scene", record.scene},
+                     {"identity", Json::parse(record.identity)},
+                     {"device", record.device},
+                     {"wall_seconds", record.wall_seconds},
+                     {"cpu_seconds", record.cpu_seconds},
+                     {"depth_cpu_seconds", record.depth_cpu_seconds},
+                     {"peak_memory_bytes", record.peak_memory_bytes},
+                     {"voxel_size", record.voxel_size},
+                     {"min_confidence", record.min_confidence},
+                     {"depth_maps", json_of(record.depth)},
+                     {"mesh", json_of(record.mesh)},
+                     {"problem", record.problem}};
+  return json.dump(2) + "\n";
+}
+
+Expected<RunRecord> read_record(const std::string& text) {
+  try {
+    const Json json = Json::parse(text);
+    RunRecord record;
+    json.at("scene").get_to(record.scene);
+    record.identity = json.at("identity").dump();
+    json.at("device").get_to(record.device);
+    json.at("wall_seconds").get_to(record.wall_seconds);
+    json.at("cpu_seconds").get_to(record.cpu_seconds);
+    json.at("depth_cpu_seconds").get_to(record.depth_cpu_seconds);
+    json.at("peak_memory_bytes").get_to(record.peak_memory_bytes);
+    json.at("voxel_size").get_to(record.voxel_size);
+    json.at("min_confidence").get_to(record.min_confidence);
+    record.depth = depth_measures(json.at("depth_maps"));
+    record.mesh = mesh_score(json.at("mesh"));
+    json.at("problem").get_to(record.problem);
+    return record;
+  } catch (const Json::exception& error) {
+    return failure(ErrorKind::kInput, fmt::format("not the record of a run: {}", error.what()));
+  }
+}
+
+std::filesystem::path RunMaker::picture_path(const RunRecord& record, Picture picture) const {
+  return folder_ / "runs" / run_id(record) / fmt::format("{}.png", to_string(picture));
+}
+
+Expected<const OpenScene*> RunMaker::open(const std::string& scene) {
+  const ExperimentScene& source = find_scene(scenes_, scene);
+  if (!open_ || open_->source != &source) {
+    open_.reset();
+    auto opened = shelf_.open(source);
+    if (!opened) return std::unexpected(opened.error());
+    open_ = std::make_unique<OpenScene>(std::move(*opened));
+  }
+  return open_.get();
+}
+
+Expected<RunRecord> RunMaker::run(const RunSettings& settings) {
+  was_made_ = false;
+  const auto opened = open(settings.scene);
+  if (!opened) return std::unexpected(opened.error());
+  RunRecord record;
+  record.scene = settings.scene;
+  record.identity = identity_of(**opened, settings).text();
+  record.device = backend_.description();
+  const std::filesystem::path path = folder_ / "runs" / (run_id(record) + ".json");
+  if (const auto text = read_file(path); text) {
+    auto kept = read_record(*text);
+    if (kept && kept->identity == record.identity) return kept;
+  }
+  was_made_ = true;
+  const OpenScene scene = first_views(**opened, settings.first_views);
+  if (!can_find_depth(scene.scene, settings.options.views)) {
+    record.problem = fmt::format("no surface: none of {} views has two neighbors", scene.scene.views.size());
+  } else if (auto made = make(scene, settings, record); !made) {
+    return std::unexpected(made.error().within(fmt::format("{}, {}", settings.scene, settings.label)));
+  }
+  if (auto folder = make_folder(folder_ / "runs"); !folder) return std::unexpected(folder.error());
+  if (auto written = write_file(path, record_json(record)); !written) return std::unexpected(written.error());
+  return record;
+}
+
+Expected<void> RunMaker::make(const OpenScene& scene, const RunSettings& settings, RunRecord& record) {
+  auto workspace = Workspace::open(folder_ / "work");
+  if (!workspace) return std::unexpected(workspace.error());
+  if (auto provided = provide_depth_maps(scene, settings, *workspace, record); !provided) return provided;
+  RunReport report;
+  SilentProgress silent(progress_);
+  if (auto fused = fuse_depth_maps(scene.scene, settings.options, backend_, *workspace, silent, report); !fused)
+    return fused;
+  add_times(report, record.wall_seconds, record.cpu_seconds);
+  record.peak_memory_bytes = peak_memory_bytes();
+  record.voxel_size = report.voxel_size;
+  record.min_confidence = report.min_confidence;
+  const auto mesh = read_ply(workspace->mesh_path());
+  if (!mesh) return std::unexpected(mesh.error());
+  auto score = score_mesh(scene, *mesh);
+  if (!score) return std::unexpected(score.error());
+  record.mesh = std::move(*score);
+  const std::filesystem::path pictures = folder_ / "runs" / run_id(record);
+  if (auto folder = make_folder(pictures); !folder) return folder;
+  return write_pictures(scene, settings.options, *workspace, *mesh, pictures);
+}
+
+/// Leaves the depth maps of the settings in the workspace. work/depth.json, written last, says what lies there.
+Expected<void> RunMaker::provide_depth_maps(const OpenScene& scene, const RunSettings& settings,
+                                            const Workspace& workspace, RunRecord& record) {
+  const std::filesystem::path note = workspace.folder() / "depth.json";
+  const std::string identity = Identity{Json::parse(record.identity).at("depth"), {}}.text();
+  if (const auto text = read_file(note); text) {
+    auto kept = read_record(*text);
+    if (kept && kept->identity == identity) {
+      record.depth = kept->depth;
+      record.wall_seconds = kept->wall_seconds;
+      record.cpu_seconds = record.depth_cpu_seconds = kept->cpu_seconds;
+      return {};
+    }
+  }
+  std::error_code ignored;
+  std::filesystem::remove(note, ignored);
+  std::filesystem::remove_all(workspace.folder() / "depth", ignored);
+  if (auto folder = make_folder(workspace.folder() / "depth"); !folder) return folder;
+  RunReport report;
+  SilentProgress silent(progress_);
+  if (auto computed = compute_depth_maps(scene.scene, settings.options, backend_, workspace, silent, report); !computed)
+    return computed;
+  auto measured = measure_depth_maps(scene, settings.options, workspace, report);
+  if (!measured) return std::unexpected(measured.error());
+  record.depth = *measured;
+  add_times(report, record.wall_seconds, record.cpu_seconds);
+  record.depth_cpu_seconds = record.cpu_seconds;
+  RunRecord kept = record;
+  kept.identity = identity;
+  return write_file(note, record_json(kept));
+}
+
+}  // namespace quorum
