@@ -46,22 +46,27 @@ std::vector<std::string> cells(const RunSettings& settings, const RunRecord& rec
   return row;
 }
 
-constexpr const char* kHeader =
-    "| scene | settings | depth maps | coverage, % | loose, % | background, % | roughness | depth error, mm | wrong "
-    "depths, % | vertices "
-    "| accuracy 90 %, mm | 50 %, mm | completeness, % | F at 0.5 mm | CPU s | wall s |\n"
-    "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+constexpr const char* kColumns[] = {
+    "scene",           "settings",        "depth maps",      "coverage, %", "loose, %",          "background, %",
+    "roughness",       "depth error, mm", "wrong depths, %", "vertices",    "accuracy 90 %, mm", "50 %, mm",
+    "completeness, %", "F at 0.5 mm",     "CPU s",           "wall s"};
 
-constexpr const char* kLegend =
-    "Coverage: share of the pixels whose ray meets the bounds, and that no mask leaves out, that have a depth. Loose: "
-    "share "
-    "of these depths that form no triangle and are dropped. Background: share of them where the photograph shows its "
-    "dark "
-    "background. Roughness: median of the second difference of depth along rows, "
-    "in footprints of a pixel. Depth error: median distance of the depths from the true surface; wrong: further than "
-    "1.25 mm. Accuracy, completeness (within 1.25 mm) and F of the mesh as in Seitz et al. 2006, where the true "
-    "surface is "
-    "known. Times are of the stages of the run, without the measuring.\n";
+constexpr const char* kLegend = R"(
+- Coverage: share of the pixels whose ray meets the bounds, and that no mask leaves out, that have a depth.
+- Loose: share of these depths that form no triangle and are dropped. Background: share of them where the photograph
+  shows its dark background.
+- Roughness: median of the second difference of depth along rows, in footprints of a pixel.
+- Depth error: median distance of the depths from the true surface; wrong: further than 1.25 mm.
+- Accuracy, completeness (within 1.25 mm) and F of the mesh as in Seitz et al. 2006, where the true surface is known.
+- Times are of the stages of the run, without the measuring.
+)";
+
+/// The head of a table.
+std::string header() {
+  std::string rule = "|";
+  for (std::size_t column = 0; column < std::size(kColumns); ++column) rule += "---|";
+  return fmt::format("| {} |\n{}\n", fmt::join(kColumns, " | "), rule);
+}
 
 }  // namespace
 
@@ -91,14 +96,16 @@ std::string results_markdown(const std::vector<ExperimentResult>& results) {
   std::string text = fmt::format("# Experiments after section 4 of the paper\n\nQuorum {}", version());
   if (!results.empty() && !results.front().runs.empty())
     text += fmt::format(", on {}", results.front().runs.front().record.device);
-  text += fmt::format(".\n\n{}", kLegend);
+  text += fmt::format(".\n{}", kLegend);
   for (const ExperimentResult& result : results) {
-    text += fmt::format("\n## {}\n\n{}.\n\n{}", result.experiment->name, result.experiment->question, kHeader);
+    text += fmt::format("\n## {}\n\n{}.\n\n{}", result.experiment->name, result.experiment->question, header());
     for (const RunResult& run : result.runs) {
       const RunSettings& settings = result.experiment->runs[run.run];
-      text += fmt::format("| {} |\n", fmt::join(cells(settings, run.record), " | "));
-      if (!run.record.problem.empty())
-        text += fmt::format("| {} | {}: {} ||||||||||||||\n", settings.scene, settings.label, run.record.problem);
+      if (run.record.problem.empty())
+        text += fmt::format("| {} |\n", fmt::join(cells(settings, run.record), " | "));
+      else
+        text += fmt::format("| {} | {}: {} |{}\n", settings.scene, settings.label, run.record.problem,
+                            std::string(std::size(kColumns) - 2, '|'));
     }
     for (const std::string& figure : result.figures) text += fmt::format("\n![{}](figures/{}.png)\n", figure, figure);
   }

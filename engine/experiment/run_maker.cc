@@ -36,11 +36,14 @@ std::string digest_of(const std::string& text) {
   return digest.text();
 }
 
-/// Of names, cameras and bounds.
+/// Of names, sizes of files, cameras and bounds.
 std::string digest_of(const Scene& scene) {
   Digest digest;
+  std::error_code ignored;
   for (const View& view : scene.views) {
     digest.add(view.name.data(), view.name.size());
+    const std::uint64_t bytes = std::filesystem::file_size(view.image_path, ignored);
+    digest.add(&bytes, sizeof(bytes));
     digest.add(view.camera.intrinsics.data(), sizeof(double) * 9);
     digest.add(view.camera.camera_from_world.data(), sizeof(double) * 9);
     digest.add(view.camera.translation.data(), sizeof(double) * 3);
@@ -63,7 +66,8 @@ Identity identity_of(const OpenScene& scene, const RunSettings& settings) {
                                             "weights",    "min_confidence", "min_component", "largest_component"};
   Identity identity;
   identity.depth = {{"version", version()},
-                    {"scene", digest_of(scene.scene)},
+                    {"scene", description(*scene.source)},
+                    {"files", digest_of(scene.scene)},
                     {"first_views", settings.first_views},
                     {"options", Json::parse(options_json(settings.options))}};
   for (const char* name : kFusionOptions) {
@@ -75,72 +79,6 @@ Identity identity_of(const OpenScene& scene, const RunSettings& settings) {
 }
 
 std::string run_id(const RunRecord& record) { return fmt::format("{}-{}", record.scene, digest_of(record.identity)); }
-
-template <typename T>
-Json json_or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-std::optional<double> number_or_none(const Json& value) {
-  return value.is_null() ? std::nullopt : std::optional(value.get<double>());
-}
-
-Json json_of(const DepthMeasures& depth) {
-  return {{"views", depth.views},
-          {"swept_pixels", depth.swept_pixels},
-          {"valid_pixels", depth.valid_pixels},
-          {"depth_samples", depth.depth_samples},
-          {"loose_pixels", depth.loose_pixels},
-          {"background_pixels", depth.background_pixels},
-          {"roughness", depth.roughness},
-          {"correlation", depth.correlation},
-          {"confidence", depth.confidence},
-          {"median_error", json_or_null(depth.median_error)},
-          {"wrong_share", json_or_null(depth.wrong_share)}};
-}
-
-DepthMeasures depth_measures(const Json& json) {
-  DepthMeasures depth;
-  json.at("views").get_to(depth.views);
-  json.at("swept_pixels").get_to(depth.swept_pixels);
-  json.at("valid_pixels").get_to(depth.valid_pixels);
-  json.at("depth_samples").get_to(depth.depth_samples);
-  json.at("loose_pixels").get_to(depth.loose_pixels);
-  json.at("background_pixels").get_to(depth.background_pixels);
-  json.at("roughness").get_to(depth.roughness);
-  json.at("correlation").get_to(depth.correlation);
-  json.at("confidence").get_to(depth.confidence);
-  depth.median_error = number_or_none(json.at("median_error"));
-  depth.wrong_share = number_or_none(json.at("wrong_share"));
-  return depth;
-}
-
-Json json_of(const MeshScore& mesh) {
-  Json json = {{"vertices", mesh.vertices}, {"triangles", mesh.triangles}};
-  if (!mesh.evaluation) return json;
-  json["accuracy"] = mesh.evaluation->accuracy;
-  json["median_accuracy"] = mesh.evaluation->median_accuracy;
-  json["mean_accuracy"] = mesh.evaluation->mean_accuracy;
-  json["completeness"] = mesh.evaluation->completeness;
-  for (const FScore& score : mesh.evaluation->f_scores)
-    json["f_scores"].push_back(
-        {{"distance", score.distance}, {"precision", score.precision}, {"recall", score.recall}, {"f", score.f}});
-  return json;
-}
-
-MeshScore mesh_score(const Json& json) {
-  MeshScore mesh{json.at("vertices").get<std::uint64_t>(), json.at("triangles").get<std::uint64_t>(), std::nullopt};
-  if (!json.contains("accuracy")) return mesh;
-  Evaluation& evaluation = mesh.evaluation.emplace();
-  json.at("accuracy").get_to(evaluation.accuracy);
-  json.at("median_accuracy").get_to(evaluation.median_accuracy);
-  json.at("mean_accuracy").get_to(evaluation.mean_accuracy);
-  json.at("completeness").get_to(evaluation.completeness);
-  for (const Json& score : json.at("f_scores"))
-    evaluation.f_scores.push_back({score.at("distance").get<double>(), score.at("precision").get<double>(),
-                                   score.at("recall").get<double>(), score.at("f").get<double>()});
-  return mesh;
-}
 
 /// Passes on the wish to stop and nothing else: a run is one step of the experiment's progress.
 class SilentProgress : public Progress {
@@ -174,44 +112,6 @@ void add_times(const RunReport& report, double& wall_seconds, double& cpu_second
 }
 
 }  // namespace
-
-std::string record_json(const RunRecord& record) {
-  const Json json = {{"scene", record.scene},
-                     {"identity", Json::parse(record.identity)},
-                     {"device", record.device},
-                     {"wall_seconds", record.wall_seconds},
-                     {"cpu_seconds", record.cpu_seconds},
-                     {"depth_cpu_seconds", record.depth_cpu_seconds},
-                     {"peak_memory_bytes", record.peak_memory_bytes},
-                     {"voxel_size", record.voxel_size},
-                     {"min_confidence", record.min_confidence},
-                     {"depth_maps", json_of(record.depth)},
-                     {"mesh", json_of(record.mesh)},
-                     {"problem", record.problem}};
-  return json.dump(2) + "\n";
-}
-
-Expected<RunRecord> read_record(const std::string& text) {
-  try {
-    const Json json = Json::parse(text);
-    RunRecord record;
-    json.at("scene").get_to(record.scene);
-    record.identity = json.at("identity").dump();
-    json.at("device").get_to(record.device);
-    json.at("wall_seconds").get_to(record.wall_seconds);
-    json.at("cpu_seconds").get_to(record.cpu_seconds);
-    json.at("depth_cpu_seconds").get_to(record.depth_cpu_seconds);
-    json.at("peak_memory_bytes").get_to(record.peak_memory_bytes);
-    json.at("voxel_size").get_to(record.voxel_size);
-    json.at("min_confidence").get_to(record.min_confidence);
-    record.depth = depth_measures(json.at("depth_maps"));
-    record.mesh = mesh_score(json.at("mesh"));
-    json.at("problem").get_to(record.problem);
-    return record;
-  } catch (const Json::exception& error) {
-    return failure(ErrorKind::kInput, fmt::format("not the record of a run: {}", error.what()));
-  }
-}
 
 std::filesystem::path RunMaker::picture_path(const RunRecord& record, Picture picture) const {
   return folder_ / "runs" / run_id(record) / fmt::format("{}.png", to_string(picture));

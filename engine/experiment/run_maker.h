@@ -6,30 +6,10 @@
 #include <string>
 
 #include "engine/experiment/experiment.h"
-#include "engine/experiment/measures.h"
+#include "engine/experiment/run_record.h"
 #include "engine/pipeline/progress.h"
 
 namespace quorum {
-
-/// What a run did, whatever experiment it belongs to.
-struct RunRecord {
-  std::string scene;
-  std::string identity;  ///< JSON: all that the result depends on
-  std::string device;
-  double wall_seconds = 0.0;  ///< of all stages; the measuring is not counted
-  double cpu_seconds = 0.0;
-  double depth_cpu_seconds = 0.0;  ///< of the depth maps' share
-  std::uint64_t peak_memory_bytes = 0;
-  double voxel_size = 0.0;      ///< scene units
-  double min_confidence = 0.0;  ///< that a vertex needed
-  DepthMeasures depth;
-  MeshScore mesh;
-  std::string problem;  ///< why there is no surface, or empty
-};
-
-/// The record as indented JSON text, and back. Reading fails (kInput) on text that is no record.
-std::string record_json(const RunRecord& record);
-Expected<RunRecord> read_record(const std::string& text);
 
 /// Makes runs below one folder:
 ///   runs/ID.json, runs/ID/PICTURE.png   the record and the pictures of a run, kept

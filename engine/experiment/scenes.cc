@@ -24,20 +24,14 @@ ExperimentScene synthetic(std::string name, const TempleOptions& options) {
   return {std::move(name), options, kBackground, "temple0002", 0};
 }
 
-/// The options as a line that tells whether a rendered folder is still right.
-std::string description(const TempleOptions& options) {
-  return fmt::format("temple: {} views on a {}, width {}, noise {}, texture {}, gloss {}, lights {}, seed {}\n",
-                     options.views, options.path == CameraPath::kRing ? "ring" : "hemisphere", options.width,
-                     options.noise, options.texture, options.gloss,
-                     options.lighting == Lighting::kFixed ? "fixed" : "per view", options.seed);
-}
-
-/// Renders the scene into folder unless it is there.
-Expected<void> provide(const std::filesystem::path& folder, const TempleOptions& options) {
-  const std::filesystem::path note = folder / "options.txt";  // written last
-  if (const auto found = read_file(note); found && *found == description(options)) return {};
-  if (auto made = synthesize_temple(folder, options); !made) return made;
-  return write_file(note, description(options));
+/// Renders a synthetic scene into folder unless it is there.
+Expected<void> provide(const std::filesystem::path& folder, const ExperimentScene& scene) {
+  const std::filesystem::path note = folder / "description.txt";  // written last
+  if (const auto found = read_file(note); found && *found == description(scene)) return {};
+  std::error_code ignored;
+  std::filesystem::remove(note, ignored);
+  if (auto made = synthesize_temple(folder, *scene.temple); !made) return made;
+  return write_file(note, description(scene));
 }
 
 }  // namespace
@@ -71,6 +65,15 @@ const ExperimentScene& find_scene(const std::vector<ExperimentScene>& scenes, st
   return *found;
 }
 
+std::string description(const ExperimentScene& scene) {
+  if (!scene.temple) return scene.name;
+  const TempleOptions& options = *scene.temple;
+  return fmt::format("temple, {} views on a {}, width {}, noise {}, texture {}, gloss {}, lights {}, seed {}",
+                     options.views, options.path == CameraPath::kRing ? "ring" : "hemisphere", options.width,
+                     options.noise, options.texture, options.gloss,
+                     options.lighting == Lighting::kFixed ? "fixed" : "per view", options.seed);
+}
+
 bool SceneShelf::has(const ExperimentScene& scene) const {
   std::error_code ignored;
   return scene.temple || (!data_.empty() && std::filesystem::is_directory(data_ / scene.name, ignored));
@@ -79,7 +82,7 @@ bool SceneShelf::has(const ExperimentScene& scene) const {
 Expected<OpenScene> SceneShelf::open(const ExperimentScene& scene) const {
   const std::filesystem::path folder = (scene.temple ? synthetic_ : data_) / scene.name;
   if (scene.temple)
-    if (auto provided = provide(folder, *scene.temple); !provided) return std::unexpected(provided.error());
+    if (auto provided = provide(folder, scene); !provided) return std::unexpected(provided.error());
   auto read = read_middlebury(folder, std::nullopt, {});
   if (!read) return std::unexpected(read.error());
   OpenScene open{&scene, std::move(*read), std::nullopt};

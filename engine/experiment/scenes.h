@@ -29,6 +29,9 @@ const std::vector<ExperimentScene>& paper_scenes();
 /// The scene of that name, which must be one of them.
 const ExperimentScene& find_scene(const std::vector<ExperimentScene>& scenes, std::string_view name);
 
+/// A line that says what the photographs show: the name of a data set, the options of a synthetic scene.
+std::string description(const ExperimentScene& scene);
+
 /// A scene, ready to reconstruct.
 struct OpenScene {
   const ExperimentScene* source = nullptr;

@@ -90,14 +90,34 @@ TEST_F(RunMakerTest, BrokenRecordsAreMadeAgain) {
   EXPECT_TRUE(runs.was_made());
 }
 
+TEST_F(RunMakerTest, ScenesWithTheSameCamerasShareNothing) {
+  ExperimentScene glossy = scenes_[1];
+  glossy.name = "glossy";
+  glossy.temple->gloss = 0.8;
+  scenes_.push_back(glossy);
+  RunMaker runs = maker();
+  const auto first = runs.run(tiny_run("first"));
+  ASSERT_TRUE(first) << first.error().message;
+  RunSettings settings = tiny_run("first");
+  settings.scene = "glossy";
+  const auto second = runs.run(settings);
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_TRUE(runs.was_made());
+  EXPECT_NE(second->depth.correlation, first->depth.correlation);
+}
+
 TEST_F(RunMakerTest, ScenesOfOtherOptionsAreRenderedAgain) {
-  ASSERT_TRUE(maker().run(tiny_run("first")));
+  const auto first = maker().run(tiny_run("first"));
+  ASSERT_TRUE(first) << first.error().message;
   const auto photograph = folder_.path() / "scenes" / "tiny" / "temple0001.png";
   const std::string before = read_file(photograph).value();
   scenes_[1].temple->gloss = 0.5;
-  const SceneShelf shelf({}, folder_.path() / "scenes");
-  ASSERT_TRUE(shelf.open(scenes_[1]));
+  RunMaker runs = maker();
+  const auto second = runs.run(tiny_run("first"));
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_TRUE(runs.was_made());
   EXPECT_NE(read_file(photograph).value(), before);
+  EXPECT_NE(second->depth.correlation, first->depth.correlation);
 }
 
 TEST(RunRecord, IsReadAsItWasWritten) {
