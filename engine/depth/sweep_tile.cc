@@ -258,24 +258,34 @@ template <int kWindow>
   }
 }
 
-/// As sweep_part, with the paper's windows along the image axes around the projection of the reference pixel.
+/// As sweep_part, with the paper's windows along the image axes around the projection of the reference pixel. Windows
+/// share nothing, so spans of a row in which no pixel tests the plane are skipped.
 template <int kWindow>
 [[gnu::always_inline]] inline void sweep_axis_part(const PlaneWarp& warp, const PaddedImage& image, float inverse_depth,
-                                                   const Part& part, int shift, float threshold, Workspace& work) {
+                                                   uint plane, const Grid<PlaneRange>& ranges, const Part& part,
+                                                   int shift, float threshold, Workspace& work) {
   constexpr int kMargin = kWindow / 2 * kPositionScale;
+  constexpr int kSpan = 16;
   if (image.width < kWindow || image.height < kWindow) return;
   const int last_u = (image.width - 1) * kPositionScale - kMargin;
   const int last_v = (image.height - 1) * kPositionScale - kMargin;
+  std::int32_t* inside = work.inside[0];
   for (int row = 0; row < part.count_y; ++row) {
-    std::int32_t* inside = work.inside[row];
-    warp_row(warp, inverse_depth, image, part.x, part.y + row, part.count_x, inside, work);
-    for (int i = 0; i < part.count_x; ++i) {
-      const bool in = (work.u[i] >= kMargin) & (work.v[i] >= kMargin) & (work.u[i] <= last_u) & (work.v[i] <= last_v);
-      inside[i] &= in ? -1 : 0;
+    const int y = part.y + row;
+    for (int begin = 0; begin < part.count_x; begin += kSpan) {
+      const int count = std::min(kSpan, part.count_x - begin);
+      const PlaneRange* range = ranges.row(y) + part.x + begin;
+      const auto tests_plane = [plane](const PlaneRange& r) { return plane >= r.first && plane <= r.last; };
+      if (std::none_of(range, range + count, tests_plane)) continue;
+      warp_row(warp, inverse_depth, image, part.x + begin, y, count, inside, work);
+      for (int i = 0; i < count; ++i) {
+        const bool in = (work.u[i] >= kMargin) & (work.v[i] >= kMargin) & (work.u[i] <= last_u) & (work.v[i] <= last_v);
+        inside[i] &= in ? -1 : 0;
+      }
+      sum_axis_windows<kWindow>(image, inside, part.tile_x + begin, part.tile_y + row, count, shift, work);
+      vote_row<kWindow>(
+          part.tile_x + begin, part.tile_y + row, count, [inside](int i) { return inside[i]; }, threshold, work);
     }
-    sum_axis_windows<kWindow>(image, inside, part.tile_x, part.tile_y + row, part.count_x, shift, work);
-    vote_row<kWindow>(
-        part.tile_x, part.tile_y + row, part.count_x, [&](int i) { return inside[i]; }, threshold, work);
   }
 }
 
@@ -344,7 +354,8 @@ template <int kWindow>
       if (task.options.window_model == WindowModel::kPlane)
         sweep_part<kWindow>(warp, image, inverse_depth, part, shift, rule.threshold, work);
       else
-        sweep_axis_part<kWindow>(warp, image, inverse_depth, part, shift, rule.threshold, work);
+        sweep_axis_part<kWindow>(warp, image, inverse_depth, static_cast<uint>(plane.plane), ranges, part, shift,
+                                 rule.threshold, work);
     }
     const auto index = static_cast<uint>(plane.plane);
     for (int y = 0; y < part.count_y; ++y) {
