@@ -18,6 +18,7 @@ int render_command(int argc, char** argv);
 int synthesize_command(int argc, char** argv);
 int experiment_command(int argc, char** argv);
 int devices_command(int argc, char** argv);
+int bench_command(int argc, char** argv);
 
 /// Parses the arguments into app and, if they are right, runs work. A failure is printed as one line "command: …" on
 /// standard error, and its kind is the exit code; --help prints and gives 0.

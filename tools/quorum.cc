@@ -23,6 +23,7 @@ constexpr Command kCommands[] = {
     {"synthesize", "make a scene with known surface to try things on", quorum::synthesize_command},
     {"experiment", "the experiments of the paper, with a table and figures", quorum::experiment_command},
     {"devices", "what a run could work on, and what it would choose", quorum::devices_command},
+    {"bench", "what each stage costs here, and what it would cost at least", quorum::bench_command},
 };
 
 void print_help(std::FILE* out) {

@@ -17,6 +17,8 @@
 namespace quorum {
 namespace {
 
+constexpr const char* kDeviceGroup = "Device and output (results are the same on every device)";
+
 Error usage(std::string text) { return {ErrorKind::kUsage, std::move(text)}; }
 
 /// Six numbers, in one argument or in six. Nothing given gives nothing.
@@ -177,8 +179,8 @@ void RunArguments::add_fusion_options(CLI::App& app) {
   app.add_flag("--largest-component", options.clean.largest_component, "Keep the largest piece alone")->group(group);
 }
 
-void RunArguments::add_device_and_output_options(CLI::App& app) {
-  const std::string group = "Device and output (results are the same on every device)";
+void RunArguments::add_device_options(CLI::App& app) {
+  const std::string group = kDeviceGroup;
   app.add_option("--device", device, "auto, cpu, an index or a part of a name of `quorum devices`")
       ->capture_default_str()
       ->group(group);
@@ -192,7 +194,12 @@ void RunArguments::add_device_and_output_options(CLI::App& app) {
       ->capture_default_str()
       ->group(group);
   app.add_flag("--quiet", quiet, "Print nothing but errors")->group(group);
-  app.add_flag("--json", json, "Print run.json to standard output at the end, and nothing else there")->group(group);
+}
+
+void RunArguments::add_device_and_output_options(CLI::App& app) {
+  add_device_options(app);
+  app.add_flag("--json", json, "Print run.json to standard output at the end, and nothing else there")
+      ->group(kDeviceGroup);
 }
 
 Expected<void> run_pipeline(RunArguments& arguments, const PipelineStages& stages) {

@@ -34,6 +34,7 @@ struct RunArguments {
   void add_scene_and_output(CLI::App& app);
   void add_depth_options(CLI::App& app);
   void add_fusion_options(CLI::App& app);
+  void add_device_options(CLI::App& app);
   void add_device_and_output_options(CLI::App& app);
 };
 

@@ -4,8 +4,10 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "engine/core/check.h"
+#include "engine/core/clock.h"
 #include "engine/depth/plane_warp.h"
 #include "engine/depth/refine_depth.h"
 #include "engine/depth/sweep_tile.h"
@@ -26,17 +28,20 @@ void add_sample(WindowSums& sums, const Sample& a, const Sample& b) {
 /// Planes of a pass that a tile tests, each with the part of the tile where some pixel does.
 struct TilePlanes {
   std::vector<TilePlane> planes;
+  std::uint64_t tests = 0;  ///< pixel · depth that the ranges ask for
 
   void collect(const Grid<PlaneRange>& ranges, const Tile& tile, int stride) {
+    const uint step = static_cast<uint>(stride);
     uint first = ~0U;
     uint last = 0;
+    tests = 0;
     for_each_range(ranges, tile, [&](int, int, const PlaneRange& range) {
       first = std::min(first, range.first);
       last = std::max(last, range.last);
+      tests += (range.last - range.first) / step + 1;
     });
     planes.clear();
     if (first > last) return;
-    const uint step = static_cast<uint>(stride);
     for (uint plane = first; plane <= last; plane += step)
       planes.push_back({static_cast<int>(plane), tile.x_end, tile.y_end, tile.x, tile.y});
     for_each_range(ranges, tile, [&](int x, int y, const PlaneRange& range) {
@@ -49,6 +54,15 @@ struct TilePlanes {
       }
     });
     std::erase_if(planes, [](const TilePlane& part) { return part.x >= part.x_end; });
+  }
+
+  /// Samples of one neighbor that sweep_tile interpolates.
+  [[nodiscard]] std::uint64_t samples(int window) const {
+    std::uint64_t total = 0;
+    for (const TilePlane& part : planes)
+      total += static_cast<std::uint64_t>(part.x_end - part.x + window - 1) *
+               static_cast<std::uint64_t>(part.y_end - part.y + window - 1);
+    return total;
   }
 
  private:
@@ -97,11 +111,15 @@ float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane) {
 }
 
 Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& ranges, int stride,
-                             const CpuSweepOptions& cpu) {
+                             const CpuSweepOptions& cpu, PassWork* work) {
   QUORUM_CHECK_EQ(ranges.width, task.reference->width);
   QUORUM_CHECK_LE(cpu.tile_width, kMaxTileSide);
   QUORUM_CHECK_LE(cpu.tile_height, kMaxTileSide);
+  const double cpu_start = process_cpu_seconds();
   const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
+  const int window = task.options.window;
+  std::atomic<std::uint64_t> tests = 0;
+  std::atomic<std::uint64_t> samples = 0;
   Grid<PixelVote> votes(ranges.width, ranges.height, kNoVote);
   const int columns = (ranges.width + cpu.tile_width - 1) / cpu.tile_width;
   const int rows = (ranges.height + cpu.tile_height - 1) / cpu.tile_height;
@@ -115,15 +133,26 @@ Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& rang
         tile_planes.collect(ranges, tile, stride);
         if (tile_planes.planes.empty()) continue;
         sweep_tile(task, ranges, tile, tile_planes.planes, rule, cpu.simd, votes);
+        const bool shared = task.options.window_model == WindowModel::kPlane;
+        tests += tile_planes.tests;
+        samples += shared ? tile_planes.samples(window) : tile_planes.tests * static_cast<uint>(window * window);
       }
     }
   });
+  if (work != nullptr) {
+    const auto neighbors = static_cast<std::uint64_t>(task.neighbor_count());
+    work->windows += tests * neighbors;
+    work->samples += samples * neighbors;
+    work->cpu_seconds += process_cpu_seconds() - cpu_start;
+  }
   return votes;
 }
 
-DepthMap sweep_depth(const SweepTask& task, const CpuSweepOptions& cpu) {
-  Grid<PixelVote> votes = sweep_planes(task, task.ranges, task.planes.refinement, cpu);
-  if (task.planes.refinement > 1) votes = sweep_planes(task, refine_ranges(votes, task.planes), 1, cpu);
+DepthMap sweep_depth(const SweepTask& task, const CpuSweepOptions& cpu, SweepWork* work) {
+  SweepWork done;
+  Grid<PixelVote> votes = sweep_planes(task, task.ranges, task.planes.refinement, cpu, &done.sweep);
+  if (task.planes.refinement > 1) votes = sweep_planes(task, refine_ranges(votes, task.planes), 1, cpu, &done.refine);
+  if (work != nullptr) *work = done;
   return depth_map_from_votes(votes, task.planes);
 }
 

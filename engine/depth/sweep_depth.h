@@ -28,11 +28,25 @@ struct CpuSweepOptions {
   int tile_height = 16;  ///< pixels, 1..64
 };
 
-/// Votes of the best plane per pixel over one pass: each pixel tests the planes of its range, every stride-th.
-Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& ranges, int stride,
-                             const CpuSweepOptions& cpu);
+/// What one pass had to do and did. The counts follow from the task and the tiles alone, not from time or threads.
+struct PassWork {
+  std::uint64_t windows = 0;  ///< pixel · depth · neighbor that the ranges ask for
+  std::uint64_t samples = 0;  ///< of neighbors, interpolated; with borders of tiles and pixels that a tile takes along
+  double cpu_seconds = 0.0;   ///< of the process while the pass ran
+};
 
-/// Both passes of the paper: planes of the first pass, then the planes around each pixel's best one.
-DepthMap sweep_depth(const SweepTask& task, const CpuSweepOptions& cpu);
+struct SweepWork {
+  PassWork sweep;   ///< first pass
+  PassWork refine;  ///< second pass
+};
+
+/// Votes of the best plane per pixel over one pass: each pixel tests the planes of its range, every stride-th.
+/// Adds to work, if given.
+Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& ranges, int stride,
+                             const CpuSweepOptions& cpu, PassWork* work = nullptr);
+
+/// Both passes of the paper: planes of the first pass, then the planes around each pixel's best one. work: if given,
+/// receives what was done.
+DepthMap sweep_depth(const SweepTask& task, const CpuSweepOptions& cpu, SweepWork* work = nullptr);
 
 }  // namespace quorum

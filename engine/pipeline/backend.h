@@ -21,10 +21,25 @@ struct FusionView {
   const Camera& camera;
 };
 
-/// Time that a device spent on one kernel or stage.
+/// Time that a device spent on one kernel or stage: of a GPU by its timestamps, of the CPU the sum over its threads.
 struct StageTime {
   std::string name;
   double seconds = 0.0;
+};
+
+/// What the sweeps of a run asked for (windows: pixel · depth · neighbor) and did (samples of neighbors, interpolated).
+/// Depends on the scene, the options and the tiles alone.
+struct SweepCounts {
+  std::uint64_t sweep_windows = 0;  ///< first pass
+  std::uint64_t sweep_samples = 0;
+  std::uint64_t refine_windows = 0;  ///< second pass
+  std::uint64_t refine_samples = 0;
+};
+
+/// What a device can do at most in the seconds that kernel_times counts; 0 = unknown.
+struct DeviceRates {
+  double operations_per_second = 0.0;  ///< 32-bit multiplications and additions
+  double bytes_per_second = 0.0;       ///< read and written
 };
 
 /// The stages of a run on one device. One call at a time. Failures are kDevice or kMemory.
@@ -55,8 +70,12 @@ class Backend {
   /// The stored blocks; the volume is over.
   virtual Expected<BlockPool> read_blocks() = 0;
 
-  /// Device seconds per kernel so far; empty where the stages' own times say it all.
-  [[nodiscard]] virtual std::vector<StageTime> kernel_times() const { return {}; }
+  /// Device seconds per kernel so far.
+  [[nodiscard]] virtual std::vector<StageTime> kernel_times() const = 0;
+  /// Measures what the device can do at most; may take a second, and hundreds of MiB.
+  virtual Expected<DeviceRates> measure_rates() { return DeviceRates{}; }
+  /// Counted work of the sweeps so far; all 0 on a device that does not count it.
+  [[nodiscard]] virtual SweepCounts sweep_counts() const { return {}; }
 };
 
 }  // namespace quorum

@@ -3,34 +3,46 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
+#include "engine/core/clock.h"
+#include "engine/core/host_rates.h"
 #include "engine/volume/collect_blocks.h"
 #include "engine/volume/integrate.h"
 #include "engine/volume/range_surface.h"
 #include "engine/volume/weigh_surface.h"
 
 namespace quorum {
-namespace {
 
-/// Triangles and weights of a view's depth map.
-struct Surface {
-  Grid<std::uint32_t> cells;
-  Grid<std::uint32_t> weights;
-};
+template <typename Work>
+auto CpuBackend::timed(const char* kernel, const Work& work) {
+  const double start = process_cpu_seconds();
+  auto result = work();
+  add_time(kernel, process_cpu_seconds() - start);
+  return result;
+}
 
-Surface make_surface(const FusionView& view, const FusionOptions& options) {
+void CpuBackend::add_time(const char* kernel, double seconds) {
+  auto time = std::ranges::find(times_, kernel, &StageTime::name);
+  if (time == times_.end()) time = times_.insert(time, StageTime{kernel, 0.0});
+  time->seconds += seconds;
+}
+
+CpuBackend::Surface CpuBackend::make_surface(const FusionView& view) {
   const int width = view.map.depth.width;
   const int height = view.map.depth.height;
   Surface surface;
-  surface.cells = range_surface(view.map.depth, make_range_surface_params(view.camera, width, height, options));
-  surface.weights = weigh_surface(view.map.depth, view.map.confidence, surface.cells,
-                                  make_weigh_surface_params(view.camera, width, height, options));
+  surface.cells = timed("range_surface", [&] {
+    return range_surface(view.map.depth, make_range_surface_params(view.camera, width, height, fusion_));
+  });
+  surface.weights = timed("weigh_surface", [&] {
+    return weigh_surface(view.map.depth, view.map.confidence, surface.cells,
+                         make_weigh_surface_params(view.camera, width, height, fusion_));
+  });
   return surface;
 }
-
-}  // namespace
 
 std::string CpuBackend::description() const {
   const char* simd = options_.simd == SimdLevel::kAvx512 ? "AVX-512"
@@ -40,7 +52,17 @@ std::string CpuBackend::description() const {
                      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism), simd);
 }
 
-Expected<DepthMap> CpuBackend::sweep_depth(const SweepTask& task) { return quorum::sweep_depth(task, options_); }
+Expected<DepthMap> CpuBackend::sweep_depth(const SweepTask& task) {
+  SweepWork work;
+  DepthMap map = quorum::sweep_depth(task, options_, &work);
+  add_time("sweep_depth", work.sweep.cpu_seconds);
+  add_time("refine_depth", work.refine.cpu_seconds);
+  counts_.sweep_windows += work.sweep.windows;
+  counts_.sweep_samples += work.sweep.samples;
+  counts_.refine_windows += work.refine.windows;
+  counts_.refine_samples += work.refine.samples;
+  return map;
+}
 
 Expected<void> CpuBackend::begin_volume(const VoxelGrid& grid, const FusionOptions& options) {
   grid_ = grid;
@@ -50,10 +72,12 @@ Expected<void> CpuBackend::begin_volume(const VoxelGrid& grid, const FusionOptio
 }
 
 Expected<std::vector<std::uint32_t>> CpuBackend::collect_blocks(const FusionView& view) {
-  const Surface surface = make_surface(view, fusion_);
-  return block_indices(
-      quorum::collect_blocks(view.map.depth, surface.weights,
-                             make_collect_params(view.camera, view.map.depth.width, view.map.depth.height, grid_)));
+  const Surface surface = make_surface(view);
+  return timed("collect_blocks", [&] {
+    return block_indices(
+        quorum::collect_blocks(view.map.depth, surface.weights,
+                               make_collect_params(view.camera, view.map.depth.width, view.map.depth.height, grid_)));
+  });
 }
 
 Expected<void> CpuBackend::allocate_blocks(std::vector<std::uint32_t> indices) {
@@ -69,13 +93,20 @@ Expected<void> CpuBackend::allocate_blocks(std::vector<std::uint32_t> indices) {
 }
 
 Expected<void> CpuBackend::integrate(const FusionView& view, const std::vector<std::uint32_t>& blocks) {
-  const Surface surface = make_surface(view, fusion_);
-  quorum::integrate({view.map.depth, surface.cells, surface.weights, view.image}, find_slots(blocks, pool_.indices),
-                    make_integrate_params(view.camera, view.map.depth.width, view.map.depth.height, grid_),
-                    pool_.voxels);
-  return {};
+  const Surface surface = make_surface(view);
+  return timed("integrate", [&]() -> Expected<void> {
+    quorum::integrate({view.map.depth, surface.cells, surface.weights, view.image}, find_slots(blocks, pool_.indices),
+                      make_integrate_params(view.camera, view.map.depth.width, view.map.depth.height, grid_),
+                      pool_.voxels);
+    return {};
+  });
 }
 
 Expected<BlockPool> CpuBackend::read_blocks() { return std::exchange(pool_, {}); }
+
+Expected<DeviceRates> CpuBackend::measure_rates() {
+  const HostRates all = measure_host_rates();
+  return DeviceRates{all.operations_per_second / all.threads, all.bytes_per_second / all.threads};
+}
 
 }  // namespace quorum

@@ -17,12 +17,28 @@ class CpuBackend : public Backend {
   Expected<void> allocate_blocks(std::vector<std::uint32_t> indices) override;
   Expected<void> integrate(const FusionView& view, const std::vector<std::uint32_t>& blocks) override;
   Expected<BlockPool> read_blocks() override;
+  [[nodiscard]] std::vector<StageTime> kernel_times() const override { return times_; }
+  Expected<DeviceRates> measure_rates() override;  ///< one thread's share, since times are sums over the threads
+  [[nodiscard]] SweepCounts sweep_counts() const override { return counts_; }
 
  private:
+  /// Triangles and weights of a view's depth map.
+  struct Surface {
+    Grid<std::uint32_t> cells;
+    Grid<std::uint32_t> weights;
+  };
+  Surface make_surface(const FusionView& view);
+  /// Runs work and adds the CPU time that it took to those of the kernel.
+  template <typename Work>
+  auto timed(const char* kernel, const Work& work);
+  void add_time(const char* kernel, double seconds);
+
   CpuSweepOptions options_;
   VoxelGrid grid_;
   FusionOptions fusion_;
   BlockPool pool_;
+  std::vector<StageTime> times_;
+  SweepCounts counts_;
 };
 
 }  // namespace quorum

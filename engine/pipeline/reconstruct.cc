@@ -93,6 +93,7 @@ Expected<BlockPool> fill_volume(const Scene& scene, const std::vector<int>& view
         std::set_union(all_blocks.begin(), all_blocks.end(), blocks->begin(), blocks->end(),
                        std::back_inserter(merged));
         all_blocks = std::move(merged);
+        report.block_views += blocks->size();
         blocks_of_view.push_back(std::move(*blocks));
         return {};
       });
@@ -101,15 +102,18 @@ Expected<BlockPool> fill_volume(const Scene& scene, const std::vector<int>& view
   }
   report.blocks = all_blocks.size();
 
-  const StageTimer timer(report, "integrate");
-  progress.stage("merging depth maps", static_cast<int>(views.size()));
-  if (auto allocated = backend.allocate_blocks(std::move(all_blocks)); !allocated)
-    return std::unexpected(allocated.error());
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    auto integrated =
-        with_view(views[i], [&](const FusionView& view) { return backend.integrate(view, blocks_of_view[i]); });
-    if (!integrated) return std::unexpected(integrated.error());
+  {
+    const StageTimer timer(report, "integrate");
+    progress.stage("merging depth maps", static_cast<int>(views.size()));
+    if (auto allocated = backend.allocate_blocks(std::move(all_blocks)); !allocated)
+      return std::unexpected(allocated.error());
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      auto integrated =
+          with_view(views[i], [&](const FusionView& view) { return backend.integrate(view, blocks_of_view[i]); });
+      if (!integrated) return std::unexpected(integrated.error());
+    }
   }
+  const StageTimer timer(report, "read_blocks");
   return backend.read_blocks();
 }
 
@@ -160,6 +164,7 @@ Expected<void> compute_depth_maps(const Scene& scene, const ReconstructOptions& 
     progress.step();
   }
   report.kernels = backend.kernel_times();
+  report.sweep = backend.sweep_counts();
   if (report.views.empty())
     return failure(ErrorKind::kInput,
                    "no view has two neighbor views; give photographs taken from closer directions, or --max-angle");

@@ -28,10 +28,12 @@ struct RunReport {
   std::string device;
   std::vector<StageReport> stages;
   std::vector<StageTime> kernels;
+  SweepCounts sweep;
   std::vector<ViewReport> views;
   double voxel_size = 0.0;  ///< scene units
   double truncation = 0.0;  ///< scene units
   std::uint64_t blocks = 0;
+  std::uint64_t block_views = 0;          ///< blocks near a view's surface, summed over the views
   double min_confidence = 0.0;            ///< that a vertex needed to stay
   std::uint64_t extracted_triangles = 0;  ///< before cleaning
   std::uint64_t vertices = 0;

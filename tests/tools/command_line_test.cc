@@ -6,8 +6,8 @@
 namespace quorum {
 namespace {
 
-const std::vector<std::string> kCommands = {"reconstruct", "depth",      "fuse",   "evaluate",
-                                            "render",      "synthesize", "devices"};
+const std::vector<std::string> kCommands = {"reconstruct", "depth",      "fuse",    "evaluate",
+                                            "render",      "synthesize", "devices", "bench"};
 
 TEST(CommandLine, VersionIsPrinted) {
   const ProgramResult result = quorum_program({"--version"});
