@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace quorum {
 
 Expected<std::unique_ptr<VulkanBackend>> VulkanBackend::create(const Device& device) {
@@ -20,6 +22,24 @@ Expected<std::unique_ptr<VulkanBackend>> VulkanBackend::create(const Device& dev
 std::string VulkanBackend::description() const {
   const DeviceInfo& info = device_->info();
   return fmt::format("{}, {} {}, Vulkan {}", info.name, info.driver_name, info.driver_version, info.api_version);
+}
+
+bool VulkanBackend::shares_memory() const {
+  return device_->info().kind == DeviceKind::kSoftware || device_->info().kind == DeviceKind::kIntegrated;
+}
+
+std::size_t VulkanBackend::max_blocks(std::uint64_t host_bytes) const {
+  constexpr std::uint64_t kBlockBytes = kBlockVoxels * sizeof(Voxel);
+  const std::uint64_t device_bytes = device_->info().largest_device_heap / 4 * 3;  // the rest for the views
+  return std::min(shares_memory() ? host_bytes / 2 : host_bytes, device_bytes) / kBlockBytes;
+}
+
+std::uint64_t VulkanBackend::view_bytes(std::uint64_t pixels, int neighbors) const {
+  constexpr std::uint64_t kStaging = 16 << 20;
+  constexpr std::uint64_t kNccValues = 64 << 20;
+  const std::uint64_t host = kStaging + 44 * pixels;  // votes of both passes, ranges of the second, the maps
+  if (!shares_memory()) return host;
+  return host + kNccValues + (4 * (1 + static_cast<std::uint64_t>(neighbors)) + 20) * pixels;
 }
 
 std::vector<StageTime> VulkanBackend::kernel_times() const {

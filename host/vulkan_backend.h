@@ -30,9 +30,14 @@ class VulkanBackend : public Backend {
     return volume_.integrate(view, blocks);
   }
   Expected<BlockPool> read_blocks() override { return volume_.read_blocks(); }
+  [[nodiscard]] std::size_t max_blocks(std::uint64_t host_bytes) const override;
+  [[nodiscard]] std::uint64_t view_bytes(std::uint64_t pixels, int neighbors) const override;
   [[nodiscard]] std::vector<StageTime> kernel_times() const override;
 
  private:
+  /// True if the device's memory is the host's.
+  [[nodiscard]] bool shares_memory() const;
+
   VulkanBackend(std::unique_ptr<Device> device, std::unique_ptr<Commands> commands, DepthStage depth,
                 VolumeStage volume)
       : device_(std::move(device)),

@@ -5,6 +5,7 @@
 #include "engine/bench/bench_text.h"
 #include "engine/core/clock.h"
 #include "engine/core/host_rates.h"
+#include "engine/core/memory.h"
 #include "engine/core/version.h"
 #include "engine/io/file.h"
 #include "engine/pipeline/synthesize.h"

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <new>
 
 namespace quorum {
@@ -45,6 +47,24 @@ Expected<double> parse_length(const std::string& option, const std::string& text
     return failure(ErrorKind::kUsage,
                    fmt::format("{} {}: give a positive length such as 0.0025 or 2.5mm, or auto", option, text));
   return value * scale;
+}
+
+Expected<std::uint64_t> parse_size(const std::string& option, const std::string& text) {
+  if (text == "auto") return 0;
+  struct Unit {
+    std::string_view name;
+    double bytes;
+  };
+  constexpr Unit kUnits[] = {{"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}, {"TiB", 0x1p40},
+                             {"kB", 1e3},     {"MB", 1e6},     {"GB", 1e9},     {"TB", 1e12}};
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string_view name(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  const auto unit = std::ranges::find(kUnits, name, &Unit::name);
+  const double bytes = unit != std::end(kUnits) ? value * unit->bytes : 0.0;
+  if (problem != std::errc() || !(bytes >= 1.0 && bytes < 0x1p60))
+    return failure(ErrorKind::kUsage, fmt::format("{} {}: give a size such as 512MiB or 4GiB, or auto", option, text));
+  return static_cast<std::uint64_t>(bytes);
 }
 
 }  // namespace quorum

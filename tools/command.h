@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -27,5 +28,9 @@ int run_command(CLI::App& app, int argc, char** argv, const std::function<Expect
 /// A length: a number in scene units, or with um, mm, cm, m or km, for scenes in meters; "auto" is 0.
 /// option: its name, for the message. Fails (kUsage).
 Expected<double> parse_length(const std::string& option, const std::string& text);
+
+/// A size of memory in bytes: a number with KiB, MiB, GiB, TiB, kB, MB, GB or TB; "auto" is 0.
+/// option: its name, for the message. Fails (kUsage).
+Expected<std::uint64_t> parse_size(const std::string& option, const std::string& text);
 
 }  // namespace quorum

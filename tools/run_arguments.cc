@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "engine/core/memory.h"
 #include "engine/io/file.h"
 #include "engine/io/middlebury.h"
 #include "engine/pipeline/run_json.h"
@@ -83,6 +84,9 @@ Expected<void> resolve(RunArguments& arguments) {
   options.fusion.weigh_confidence = weighs_by("confidence");
   options.fusion.weigh_slant = weighs_by("slant");
   options.fusion.weigh_border = weighs_by("border");
+  const auto memory = parse_size("--memory", arguments.memory);
+  if (!memory) return std::unexpected(memory.error());
+  options.memory_bytes = *memory;
   options.automatic_confidence = arguments.min_confidence == "auto";
   if (!options.automatic_confidence) {
     const char* end = arguments.min_confidence.data() + arguments.min_confidence.size();
@@ -185,6 +189,10 @@ void RunArguments::add_device_options(CLI::App& app) {
       ->capture_default_str()
       ->group(group);
   app.add_option("--threads", threads, "CPU threads; 0: all")->capture_default_str()->group(group);
+  app.add_option("--memory", memory,
+                 "What the run may hold in memory, such as 4GiB; auto: three quarters of what is free")
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--tile", tile, "Tile of the CPU sweep, width height in pixels")
       ->expected(2)
       ->capture_default_str()

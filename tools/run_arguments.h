@@ -19,6 +19,7 @@ struct RunArguments {
   std::filesystem::path masks;
   std::string device = "auto";
   int threads = 0;
+  std::string memory = "auto";
   std::string simd = "auto";
   std::vector<int> tile = {64, 16};
   std::string window_model = "plane";

@@ -7,7 +7,10 @@
 #include <array>
 #include <bit>
 #include <optional>
+#include <span>
+#include <utility>
 
+#include "engine/core/check.h"
 #include "engine/mesh/case_table.h"
 
 namespace quorum {
@@ -38,63 +41,13 @@ struct BlockVertices {
   }
 };
 
-/// A block and the voxels around it, coordinates -1..8; null where no block is stored.
-class Neighborhood {
- public:
-  Neighborhood(const BlockPool& pool, const VoxelGrid& grid, std::size_t slot) : pool_(pool) {
-    const auto [x, y, z] = grid.block_position(pool.indices[slot]);
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) slots_[neighbor_index(dx, dy, dz)] = find(grid, x + dx, y + dy, z + dz);
-    for (int vz = -1; vz <= kBlockSide; ++vz)
-      for (int vy = -1; vy <= kBlockSide; ++vy)
-        for (int vx = -1; vx <= kBlockSide; ++vx) voxels_[voxel_index(vx, vy, vz)] = load(vx, vy, vz);
-  }
-
-  /// The voxel at these coordinates if it was seen, else null.
-  [[nodiscard]] const Voxel* seen(int x, int y, int z) const { return voxels_[voxel_index(x, y, z)]; }
-
-  /// Inside flags of the cube that starts at these coordinates (-1..7), or nothing if a corner was not seen.
-  [[nodiscard]] std::optional<int> cube_case(int x, int y, int z) const {
-    int inside = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Voxel* voxel = seen(x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2));
-      if (voxel == nullptr) return std::nullopt;
-      if (voxel->distance < 0) inside |= 1 << corner;
-    }
-    return inside;
-  }
-
-  /// Slot of the block that holds these coordinates.
-  [[nodiscard]] std::size_t slot_of(int x, int y, int z) const {
-    return static_cast<std::size_t>(slots_[neighbor_index(x >> 3, y >> 3, z >> 3)]);
-  }
-
- private:
-  static std::size_t neighbor_index(int dx, int dy, int dz) {
-    return static_cast<std::size_t>(dx + 1 + 3 * (dy + 1 + 3 * (dz + 1)));
-  }
-  static std::size_t voxel_index(int x, int y, int z) {
-    return static_cast<std::size_t>(x + 1 + kSide * (y + 1 + kSide * (z + 1)));
-  }
-  [[nodiscard]] std::int64_t find(const VoxelGrid& grid, int x, int y, int z) const {
-    if (x < 0 || y < 0 || z < 0 || x >= grid.blocks[0] || y >= grid.blocks[1] || z >= grid.blocks[2]) return -1;
-    const std::uint32_t index = grid.block_index(x, y, z);
-    const auto found = std::lower_bound(pool_.indices.begin(), pool_.indices.end(), index);
-    return found != pool_.indices.end() && *found == index ? found - pool_.indices.begin() : -1;
-  }
-  [[nodiscard]] const Voxel* load(int x, int y, int z) const {
-    const std::int64_t slot = slots_[neighbor_index(x >> 3, y >> 3, z >> 3)];
-    if (slot < 0) return nullptr;
-    const int local = (x & 7) + kBlockSide * ((y & 7) + kBlockSide * (z & 7));
-    const Voxel* voxel = pool_.voxels.data() + slot * kBlockVoxels + local;
-    return voxel->weight > 0 ? voxel : nullptr;
-  }
-
-  const BlockPool& pool_;
-  std::array<std::int64_t, 27> slots_ = {};
-  std::array<const Voxel*, kSide * kSide * kSide> voxels_ = {};
-};
+/// Place of a block in the ascending list, or -1 if it is not stored.
+std::int64_t find_block(const std::vector<std::uint32_t>& indices, const VoxelGrid& grid, int x, int y, int z) {
+  if (x < 0 || y < 0 || z < 0 || x >= grid.blocks[0] || y >= grid.blocks[1] || z >= grid.blocks[2]) return -1;
+  const std::uint32_t index = grid.block_index(x, y, z);
+  const auto found = std::lower_bound(indices.begin(), indices.end(), index);
+  return found != indices.end() && *found == index ? found - indices.begin() : -1;
+}
 
 template <typename Visit>
 void for_each_voxel(Visit visit) {
@@ -103,10 +56,124 @@ void for_each_voxel(Visit visit) {
       for (int x = 0; x < kBlockSide; ++x) visit(x, y, z, x + kBlockSide * (y + kBlockSide * z));
 }
 
+/// The voxels of a block, and those one further along each axis, in the blocks that lie there.
+class BlockVoxels {
+ public:
+  BlockVoxels(const BlockPool& pool, const VoxelGrid& grid, std::size_t slot)
+      : block_(grid.block_position(pool.indices[slot])), voxels_(voxels_of(pool, static_cast<std::int64_t>(slot))) {
+    for (int axis = 0; axis < 3; ++axis)
+      next_[axis] = voxels_of(pool, find_block(pool.indices, grid, block_[0] + (axis == 0), block_[1] + (axis == 1),
+                                               block_[2] + (axis == 2)));
+  }
+
+  /// Calls visit(voxel, next voxel, x, y, z, axis) for the edges between seen voxels of different sign, in the order of
+  /// voxel and axis.
+  template <typename Visit>
+  void for_each_crossing(Visit visit) const {
+    for_each_voxel([&](int x, int y, int z, int local) {
+      const Voxel& from = voxels_[local];
+      if (from.weight <= 0) return;
+      const std::array<int, 3> at = {x, y, z};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        constexpr std::array<int, 3> kStep = {1, kBlockSide, kBlockSide * kBlockSide};
+        const bool last = at[axis] == kBlockSide - 1;
+        const Voxel* block = last ? next_[axis] : voxels_;
+        if (block == nullptr) continue;
+        const Voxel& to = block[local + (last ? -(kBlockSide - 1) : 1) * kStep[axis]];
+        if (to.weight > 0 && (from.distance < 0) != (to.distance < 0)) visit(from, to, x, y, z, static_cast<int>(axis));
+      }
+    });
+  }
+
+  [[nodiscard]] BlockSigns signs() const {
+    BlockSigns result;
+    for_each_voxel([&](int x, int y, int z, int local) {
+      const std::uint64_t bit = 1ULL << (x + kBlockSide * y);
+      if (voxels_[local].weight > 0) result.seen[static_cast<std::size_t>(z)] |= bit;
+      if (voxels_[local].distance < 0) result.inside[static_cast<std::size_t>(z)] |= bit;
+    });
+    return result;
+  }
+
+  /// Coordinates of the block's first voxel in the lattice.
+  [[nodiscard]] std::array<int, 3> origin() const {
+    return {block_[0] * kBlockSide, block_[1] * kBlockSide, block_[2] * kBlockSide};
+  }
+
+ private:
+  static const Voxel* voxels_of(const BlockPool& pool, std::int64_t slot) {
+    return slot < 0 ? nullptr : pool.voxels.data() + slot * kBlockVoxels;
+  }
+
+  std::array<int, 3> block_;
+  const Voxel* voxels_;
+  const Voxel* next_[3];
+};
+
+/// What is known of a block and the voxels around it, coordinates -1..8.
+class Neighborhood {
+ public:
+  Neighborhood(const std::vector<std::uint32_t>& indices, const std::vector<BlockSigns>& signs, const VoxelGrid& grid,
+               std::size_t slot) {
+    const auto [x, y, z] = grid.block_position(indices[slot]);
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          slots_[neighbor_index(dx, dy, dz)] = find_block(indices, grid, x + dx, y + dy, z + dz);
+    for (int vz = -1; vz <= kBlockSide; ++vz)
+      for (int vy = -1; vy <= kBlockSide; ++vy)
+        for (int vx = -1; vx <= kBlockSide; ++vx) voxels_[voxel_index(vx, vy, vz)] = load(signs, vx, vy, vz);
+  }
+
+  [[nodiscard]] bool seen(int x, int y, int z) const { return voxels_[voxel_index(x, y, z)] != kUnseen; }
+  /// False if it was not seen.
+  [[nodiscard]] bool inside(int x, int y, int z) const { return voxels_[voxel_index(x, y, z)] == kInside; }
+
+  /// Inside flags of the cube that starts at these coordinates (-1..7), or nothing if a corner was not seen.
+  [[nodiscard]] std::optional<int> cube_case(int x, int y, int z) const {
+    int corners = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const State state = voxels_[voxel_index(x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2))];
+      if (state == kUnseen) return std::nullopt;
+      if (state == kInside) corners |= 1 << corner;
+    }
+    return corners;
+  }
+
+  /// Slot of the block that holds these coordinates.
+  [[nodiscard]] std::size_t slot_of(int x, int y, int z) const {
+    return static_cast<std::size_t>(slots_[neighbor_index(x >> 3, y >> 3, z >> 3)]);
+  }
+
+ private:
+  enum State : std::uint8_t { kUnseen, kOutside, kInside };
+
+  static std::size_t neighbor_index(int dx, int dy, int dz) {
+    return static_cast<std::size_t>(dx + 1 + 3 * (dy + 1 + 3 * (dz + 1)));
+  }
+  static std::size_t voxel_index(int x, int y, int z) {
+    return static_cast<std::size_t>(x + 1 + kSide * (y + 1 + kSide * (z + 1)));
+  }
+  [[nodiscard]] State load(const std::vector<BlockSigns>& signs, int x, int y, int z) const {
+    const std::int64_t slot = slots_[neighbor_index(x >> 3, y >> 3, z >> 3)];
+    if (slot < 0) return kUnseen;
+    const BlockSigns& block = signs[static_cast<std::size_t>(slot)];
+    const auto word = static_cast<std::size_t>(z & 7);
+    const int bit = (x & 7) + kBlockSide * (y & 7);
+    if ((block.seen[word] >> bit & 1) == 0) return kUnseen;
+    return (block.inside[word] >> bit & 1) != 0 ? kInside : kOutside;
+  }
+
+  std::array<std::int64_t, 27> slots_ = {};
+  std::array<State, kSide* kSide* kSide> voxels_ = {};
+};
+
 /// Which lattice edges of the block carry a vertex (one of the four cubes around is seen whole, and the sign changes),
-/// and how many triangles its cubes make.
-BlockVertices count_block(const Neighborhood& around) {
+/// and how many triangles its cubes make. used: one flag for each vertex that MarchingCubes made in the
+/// block.
+BlockVertices count_block(const Neighborhood& around, std::span<char> used) {
   BlockVertices result;
+  std::size_t made = 0;
   std::array<bool, 9 * 9 * 9> whole;
   const auto whole_at = [&](int x, int y, int z) -> bool& {
     return whole[static_cast<std::size_t>(x + 1 + 9 * (y + 1 + 9 * (z + 1)))];
@@ -122,25 +189,27 @@ BlockVertices count_block(const Neighborhood& around) {
     }
   }
   for_each_voxel([&](int x, int y, int z, int voxel) {
-    const Voxel* from = around.seen(x, y, z);
-    if (from == nullptr) return;
+    if (!around.seen(x, y, z)) return;
     for (int axis = 0; axis < 3; ++axis) {
-      const Voxel* to = around.seen(x + (axis == 0), y + (axis == 1), z + (axis == 2));
-      if (to == nullptr || (from->distance < 0) == (to->distance < 0)) continue;
-      const int ax = axis == 0 ? 0 : 1;
-      const int ay = axis == 1 ? 0 : 1;
-      const int az = axis == 2 ? 0 : 1;
-      bool used = false;
+      const int ax = axis == 0 ? 1 : 0;
+      const int ay = axis == 1 ? 1 : 0;
+      const int az = axis == 2 ? 1 : 0;
+      if (!around.seen(x + ax, y + ay, z + az) || around.inside(x, y, z) == around.inside(x + ax, y + ay, z + az))
+        continue;
+      bool in_cube = false;
       for (int cube = 0; cube < 8; ++cube) {
-        const int dx = cube & ax;
-        const int dy = (cube >> 1) & ay;
-        const int dz = (cube >> 2) & az;
-        used = used || whole_at(x - dx, y - dy, z - dz);
+        const int dx = cube & 1 & ~ax;
+        const int dy = cube >> 1 & 1 & ~ay;
+        const int dz = cube >> 2 & 1 & ~az;
+        in_cube = in_cube || whole_at(x - dx, y - dy, z - dz);
       }
       const int edge = 3 * voxel + axis;
-      if (used) result.bits[static_cast<std::size_t>(edge / 64)] |= 1ULL << (edge % 64);
+      if (in_cube) result.bits[static_cast<std::size_t>(edge / 64)] |= 1ULL << (edge % 64);
+      QUORUM_CHECK_LT(made, used.size());
+      used[made++] = in_cube ? 1 : 0;
     }
   });
+  QUORUM_CHECK_EQ(made, used.size());
   return result;
 }
 
@@ -163,23 +232,9 @@ Vertex make_vertex(const Voxel& from, const Voxel& to, const Eigen::Vector3d& po
   return vertex;
 }
 
-void write_block(const Neighborhood& around, const VoxelGrid& grid, std::uint32_t block_index, std::size_t slot,
-                 const std::vector<BlockVertices>& blocks, Mesh& mesh) {
-  const auto block = grid.block_position(block_index);
-  std::uint32_t next_vertex = blocks[slot].first;
+void write_triangles(const Neighborhood& around, std::size_t slot, const std::vector<BlockVertices>& blocks,
+                     Mesh& mesh) {
   std::uint32_t next_triangle = blocks[slot].first_triangle;
-  for_each_voxel([&](int x, int y, int z, int voxel) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const int edge = 3 * voxel + axis;
-      if ((blocks[slot].bits[static_cast<std::size_t>(edge / 64)] >> (edge % 64) & 1) == 0) continue;
-      const Eigen::Vector3d position =
-          grid.origin + grid.voxel_size * Eigen::Vector3d(block[0] * kBlockSide + x, block[1] * kBlockSide + y,
-                                                          block[2] * kBlockSide + z);
-      mesh.vertices[next_vertex++] =
-          make_vertex(*around.seen(x, y, z), *around.seen(x + (axis == 0), y + (axis == 1), z + (axis == 2)), position,
-                      grid.voxel_size, axis);
-    }
-  });
   for_each_voxel([&](int x, int y, int z, int) {
     const auto cube = around.cube_case(x, y, z);
     if (!cube) return;
@@ -216,10 +271,45 @@ void add_normals(Mesh& mesh) {
 
 }  // namespace
 
-Mesh marching_cubes(const BlockPool& pool, const VoxelGrid& grid) {
-  std::vector<BlockVertices> blocks(pool.indices.size());
-  tbb::parallel_for(std::size_t{0}, blocks.size(),
-                    [&](std::size_t slot) { blocks[slot] = count_block(Neighborhood(pool, grid, slot)); });
+void MarchingCubes::add(const BlockPool& pool, std::size_t count) {
+  QUORUM_CHECK_LE(count, pool.indices.size());
+  if (count == 0) return;
+  if (!indices_.empty()) QUORUM_CHECK_LT(indices_.back(), pool.indices.front());
+  const std::size_t first_block = indices_.size();
+  indices_.insert(indices_.end(), pool.indices.begin(), pool.indices.begin() + static_cast<std::ptrdiff_t>(count));
+  signs_.resize(indices_.size());
+  first_vertex_.resize(indices_.size());
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t slot) {
+    const BlockVoxels block(pool, grid_, slot);
+    signs_[first_block + slot] = block.signs();
+    std::size_t crossings = 0;
+    block.for_each_crossing([&](const Voxel&, const Voxel&, int, int, int, int) { ++crossings; });
+    first_vertex_[first_block + slot] = crossings;
+  });
+  std::size_t vertex_count = vertices_.size();
+  for (std::size_t block = first_block; block < indices_.size(); ++block)
+    vertex_count += std::exchange(first_vertex_[block], vertex_count);
+  vertices_.resize(vertex_count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t slot) {
+    const BlockVoxels block(pool, grid_, slot);
+    const auto [block_x, block_y, block_z] = block.origin();
+    std::size_t next = first_vertex_[first_block + slot];
+    block.for_each_crossing([&](const Voxel& from, const Voxel& to, int x, int y, int z, int axis) {
+      const Eigen::Vector3d position =
+          grid_.origin + grid_.voxel_size * Eigen::Vector3d(block_x + x, block_y + y, block_z + z);
+      vertices_[next++] = make_vertex(from, to, position, grid_.voxel_size, axis);
+    });
+  });
+}
+
+Mesh MarchingCubes::finish() {
+  std::vector<BlockVertices> blocks(indices_.size());
+  std::vector<char> used(vertices_.size());
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t slot) {
+    const std::size_t end = slot + 1 < blocks.size() ? first_vertex_[slot + 1] : used.size();
+    blocks[slot] = count_block(Neighborhood(indices_, signs_, grid_, slot),
+                               std::span(used).subspan(first_vertex_[slot], end - first_vertex_[slot]));
+  });
   std::uint32_t vertex_count = 0;
   std::uint32_t triangle_count = 0;
   for (BlockVertices& block : blocks) {
@@ -229,14 +319,24 @@ Mesh marching_cubes(const BlockPool& pool, const VoxelGrid& grid) {
     triangle_count += block.triangles;
   }
   Mesh mesh;
-  mesh.vertices.resize(vertex_count);
+  mesh.vertices = std::exchange(vertices_, {});
+  std::size_t kept = 0;
+  for (std::size_t vertex = 0; vertex < used.size(); ++vertex)
+    if (used[vertex] != 0) mesh.vertices[kept++] = mesh.vertices[vertex];
+  mesh.vertices.resize(kept);
+  QUORUM_CHECK_EQ(mesh.vertices.size(), vertex_count);
   mesh.triangles.resize(triangle_count);
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t slot) {
-    if (blocks[slot].triangles > 0 || blocks[slot].count() > 0)
-      write_block(Neighborhood(pool, grid, slot), grid, pool.indices[slot], slot, blocks, mesh);
+    if (blocks[slot].triangles > 0) write_triangles(Neighborhood(indices_, signs_, grid_, slot), slot, blocks, mesh);
   });
   add_normals(mesh);
   return mesh;
+}
+
+Mesh marching_cubes(const BlockPool& pool, const VoxelGrid& grid) {
+  MarchingCubes cubes(grid);
+  cubes.add(pool, pool.indices.size());
+  return cubes.finish();
 }
 
 }  // namespace quorum

@@ -57,7 +57,8 @@ class Backend {
   virtual Expected<DepthMap> sweep_depth(const SweepTask& task) = 0;
 
   // A volume (the paper, 2.2): begin it, collect the blocks of every view, allocate them all, integrate every view into
-  // its blocks, read them. Views may come in any order: sums are exact.
+  // its blocks, read them. Or, slab by slab: allocate some, integrate, read, and then the next. Views may come in any
+  // order: sums are exact.
 
   /// Starts a volume and forgets the last.
   virtual Expected<void> begin_volume(const VoxelGrid& grid, const FusionOptions& options) = 0;
@@ -67,8 +68,13 @@ class Backend {
   virtual Expected<void> allocate_blocks(std::vector<std::uint32_t> indices) = 0;
   /// Adds a view's range surface to the blocks that collect_blocks named for it.
   virtual Expected<void> integrate(const FusionView& view, const std::vector<std::uint32_t>& blocks) = 0;
-  /// The stored blocks; the volume is over.
+  /// The stored blocks. The device holds none after that.
   virtual Expected<BlockPool> read_blocks() = 0;
+
+  /// Most blocks that fit into this much memory of the host, and into the device's; those read back included.
+  [[nodiscard]] virtual std::size_t max_blocks(std::uint64_t host_bytes) const = 0;
+  /// Memory of the host that the work on a view takes beside its inputs, bytes.
+  [[nodiscard]] virtual std::uint64_t view_bytes(std::uint64_t pixels, int neighbors) const = 0;
 
   /// Device seconds per kernel so far.
   [[nodiscard]] virtual std::vector<StageTime> kernel_times() const = 0;

@@ -104,6 +104,14 @@ Expected<void> CpuBackend::integrate(const FusionView& view, const std::vector<s
 
 Expected<BlockPool> CpuBackend::read_blocks() { return std::exchange(pool_, {}); }
 
+std::size_t CpuBackend::max_blocks(std::uint64_t host_bytes) const {
+  return host_bytes / (kBlockVoxels * sizeof(Voxel));
+}
+
+std::uint64_t CpuBackend::view_bytes(std::uint64_t pixels, int /*neighbors*/) const {
+  return 44 * pixels;  // the sweep: votes of both passes, ranges of the second, the maps; the surface takes less
+}
+
 Expected<DeviceRates> CpuBackend::measure_rates() {
   const HostRates all = measure_host_rates();
   return DeviceRates{all.operations_per_second / all.threads, all.bytes_per_second / all.threads};

@@ -17,6 +17,8 @@ class CpuBackend : public Backend {
   Expected<void> allocate_blocks(std::vector<std::uint32_t> indices) override;
   Expected<void> integrate(const FusionView& view, const std::vector<std::uint32_t>& blocks) override;
   Expected<BlockPool> read_blocks() override;
+  [[nodiscard]] std::size_t max_blocks(std::uint64_t host_bytes) const override;
+  [[nodiscard]] std::uint64_t view_bytes(std::uint64_t pixels, int neighbors) const override;
   [[nodiscard]] std::vector<StageTime> kernel_times() const override { return times_; }
   Expected<DeviceRates> measure_rates() override;  ///< one thread's share, since times are sums over the threads
   [[nodiscard]] SweepCounts sweep_counts() const override { return counts_; }

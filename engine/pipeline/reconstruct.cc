@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "engine/depth/depth_planes.h"
 #include "engine/depth/plane_warp.h"
 #include "engine/io/image_store.h"
 #include "engine/io/ply.h"
-#include "engine/mesh/marching_cubes.h"
+#include "engine/pipeline/fuse_views.h"
 
 namespace quorum {
 namespace {
@@ -62,59 +61,16 @@ ViewReport report_view(const Scene& scene, int reference, const std::vector<int>
 
 Error stopped() { return {ErrorKind::kStopped, "stopped as asked; finished depth maps are kept"}; }
 
-/// Merges the views into the volume and reads it back.
-Expected<BlockPool> fill_volume(const Scene& scene, const std::vector<int>& views, const ReconstructOptions& options,
-                                const VoxelGrid& grid, Backend& backend, const Workspace& workspace, ImageStore& images,
-                                Progress& progress, RunReport& report) {
-  const auto with_view = [&](int index, auto use) -> Expected<void> {
-    if (progress.stop_requested()) return std::unexpected(stopped());
-    const View& view = view_at(scene, index);
-    auto map = workspace.load_depth_map(view.name, view.width, view.height);
-    if (!map) return std::unexpected(map.error());
-    auto image = load_padded(images, index);
-    if (!image) return std::unexpected(image.error());
-    auto used = use(FusionView{*map, **image, view.camera});
-    progress.step();
-    return used;
-  };
-
-  if (auto begun = backend.begin_volume(grid, options.fusion); !begun) return std::unexpected(begun.error());
-  std::vector<std::vector<std::uint32_t>> blocks_of_view;
-  std::vector<std::uint32_t> all_blocks;
-  {
-    const StageTimer timer(report, "collect_blocks");
-    progress.stage("finding voxel blocks", static_cast<int>(views.size()));
-    for (const int index : views) {
-      auto collected = with_view(index, [&](const FusionView& view) -> Expected<void> {
-        auto blocks = backend.collect_blocks(view);
-        if (!blocks) return std::unexpected(blocks.error());
-        std::vector<std::uint32_t> merged;
-        merged.reserve(all_blocks.size() + blocks->size());
-        std::set_union(all_blocks.begin(), all_blocks.end(), blocks->begin(), blocks->end(),
-                       std::back_inserter(merged));
-        all_blocks = std::move(merged);
-        report.block_views += blocks->size();
-        blocks_of_view.push_back(std::move(*blocks));
-        return {};
-      });
-      if (!collected) return std::unexpected(collected.error());
-    }
-  }
-  report.blocks = all_blocks.size();
-
-  {
-    const StageTimer timer(report, "integrate");
-    progress.stage("merging depth maps", static_cast<int>(views.size()));
-    if (auto allocated = backend.allocate_blocks(std::move(all_blocks)); !allocated)
-      return std::unexpected(allocated.error());
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      auto integrated =
-          with_view(views[i], [&](const FusionView& view) { return backend.integrate(view, blocks_of_view[i]); });
-      if (!integrated) return std::unexpected(integrated.error());
-    }
-  }
-  const StageTimer timer(report, "read_blocks");
-  return backend.read_blocks();
+/// What the depth map of one view takes at most: its task and the next one's, which is read meanwhile, the sweep, and
+/// the maps of the last view, which are written meanwhile.
+std::uint64_t view_bytes(const Scene& scene, const ReconstructOptions& options, const Backend& backend) {
+  constexpr std::uint64_t kWrittenBytes = 32;  // a pixel: three maps, a file's bytes, pictures
+  const auto neighbors = static_cast<std::uint64_t>(options.views.neighbor_count);
+  const std::uint64_t task_bytes = 4 * (1 + neighbors) + 8 + 6;  // padded images, ranges; a photograph and its mask
+  std::uint64_t pixels = 0;
+  for (const View& view : scene.views)
+    pixels = std::max(pixels, static_cast<std::uint64_t>(view.width) * static_cast<std::uint64_t>(view.height));
+  return (3 * task_bytes + 2 * kWrittenBytes) * pixels + backend.view_bytes(pixels, options.views.neighbor_count);
 }
 
 }  // namespace
@@ -133,7 +89,11 @@ Expected<void> ReconstructOptions::check() const {
 Expected<void> compute_depth_maps(const Scene& scene, const ReconstructOptions& options, Backend& backend,
                                   const Workspace& workspace, Progress& progress, RunReport& report) {
   constexpr std::size_t kLeastNeighbors = 2;  // the paper, 4.3: every point is seen in at least three views
-  ImageStore images(scene, options.image_cache_bytes, options.mask_below);
+  const MemoryBudget budget(options.memory_bytes);
+  report.memory_budget_bytes = budget.bytes();
+  const std::uint64_t in_flight = view_bytes(scene, options, backend);
+  if (auto fits = budget.require(in_flight, "computing depth maps"); !fits) return fits;
+  ImageStore images(scene, std::max(budget.left(), in_flight) - in_flight, options.mask_below);
   progress.stage("computing depth maps", static_cast<int>(scene.views.size()));
   for (int reference = 0; reference < static_cast<int>(scene.views.size()); ++reference) {
     if (progress.stop_requested()) return std::unexpected(stopped());
@@ -187,18 +147,14 @@ Expected<void> fuse_depth_maps(const Scene& scene, const ReconstructOptions& opt
   report.voxel_size = grid->voxel_size;
   report.truncation = grid->truncation;
 
-  ImageStore images(scene, options.image_cache_bytes, 0.0);
-  auto pool = fill_volume(scene, views, options, *grid, backend, workspace, images, progress, report);
-  if (!pool) return std::unexpected(pool.error());
-
-  progress.stage("extracting the mesh", 1);
-  Mesh mesh;
-  {
-    const StageTimer timer(report, "marching_cubes");
-    mesh = marching_cubes(*pool, *grid);
-    *pool = {};
-    report.extracted_triangles = mesh.triangles.size();
-  }
+  const MemoryBudget budget(options.memory_bytes);
+  report.memory_budget_bytes = budget.bytes();
+  ImageStore images(scene, 0, 0.0);  // a slab takes each photograph once, and the memory is better spent on large slabs
+  auto extracted =
+      fuse_views({scene, views, *grid, options.fusion, workspace, budget, backend, images, progress, report});
+  if (!extracted) return std::unexpected(extracted.error());
+  Mesh mesh = std::move(*extracted);
+  report.extracted_triangles = mesh.triangles.size();
   {
     const StageTimer timer(report, "clean");
     CleanOptions rules = options.clean;

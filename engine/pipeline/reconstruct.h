@@ -19,9 +19,9 @@ struct ReconstructOptions {
   SweepOptions sweep;
   FusionOptions fusion;
   CleanOptions clean;
-  bool automatic_confidence = true;           ///< clean.min_confidence from the mesh itself
-  double mask_below = 0.0;                    ///< level of the dark-background mask, 0..1; 0 = none (paper 4.6)
-  std::size_t image_cache_bytes = 512 << 20;  ///< photographs held in memory at once
+  bool automatic_confidence = true;  ///< clean.min_confidence from the mesh itself
+  double mask_below = 0.0;           ///< level of the dark-background mask, 0..1; 0 = none (paper 4.6)
+  std::uint64_t memory_bytes = 0;    ///< that the process may hold; 0 = automatic (MemoryBudget)
 
   /// Names the first option that is out of its range, and the range. kUsage.
   [[nodiscard]] Expected<void> check() const;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/core/memory.h"
 #include "engine/core/version.h"
 
 namespace quorum {
@@ -72,12 +73,14 @@ std::string run_json(const Scene& scene, const ReconstructOptions& options, cons
         {"sweep_samples", report.sweep.sweep_samples},
         {"refine_windows", report.sweep.refine_windows},
         {"refine_samples", report.sweep.refine_samples}}},
+      {"memory_budget_bytes", report.memory_budget_bytes},
       {"peak_memory_bytes", peak_memory_bytes()},
       {"volume",
        {{"voxel_size", report.voxel_size},
         {"truncation", report.truncation},
         {"blocks", report.blocks},
-        {"block_views", report.block_views}}},
+        {"block_views", report.block_views},
+        {"slabs", report.slabs}}},
       {"mesh",
        {{"min_confidence", report.min_confidence},
         {"extracted_triangles", report.extracted_triangles},

@@ -1,7 +1,5 @@
 #include "engine/pipeline/run_report.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -18,12 +16,6 @@ StageTimer::~StageTimer() {
   if (stage == report_.stages.end()) stage = report_.stages.insert(stage, StageReport{name_, 0.0, 0.0});
   stage->wall_seconds += wall_seconds() - wall_start_;
   stage->cpu_seconds += process_cpu_seconds() - cpu_start_;
-}
-
-std::uint64_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 }  // namespace quorum

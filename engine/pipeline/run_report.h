@@ -32,7 +32,9 @@ struct RunReport {
   std::vector<ViewReport> views;
   double voxel_size = 0.0;  ///< scene units
   double truncation = 0.0;  ///< scene units
+  std::uint64_t memory_budget_bytes = 0;
   std::uint64_t blocks = 0;
+  int slabs = 0;                          ///< in which the volume was filled
   std::uint64_t block_views = 0;          ///< blocks near a view's surface, summed over the views
   double min_confidence = 0.0;            ///< that a vertex needed to stay
   std::uint64_t extracted_triangles = 0;  ///< before cleaning
@@ -54,8 +56,5 @@ class StageTimer {
   double wall_start_;
   double cpu_start_;
 };
-
-/// Largest memory that this process has held so far, bytes.
-std::uint64_t peak_memory_bytes();
 
 }  // namespace quorum

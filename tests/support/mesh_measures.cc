@@ -29,4 +29,10 @@ MeshMeasures measure_mesh(const Mesh& mesh) {
   return measures;
 }
 
+bool same_mesh(const Mesh& a, const Mesh& b) {
+  static_assert(sizeof(Vertex) == 32);
+  return a.vertices.size() == b.vertices.size() && a.triangles == b.triangles &&
+         std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(Vertex)) == 0;
+}
+
 }  // namespace quorum

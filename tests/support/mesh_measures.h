@@ -14,4 +14,7 @@ struct MeshMeasures {
 
 MeshMeasures measure_mesh(const Mesh& mesh);
 
+/// True if both have the same bytes.
+bool same_mesh(const Mesh& a, const Mesh& b);
+
 }  // namespace quorum

@@ -98,6 +98,11 @@ INSTANTIATE_TEST_SUITE_P(Reconstruct, WrongValues,
                                          WrongValue{{"--threads", "-1"}, "1 to 1024"},          //
                                          WrongValue{{"--tile", "4", "16"}, "8 to 64"},          //
                                          WrongValue{{"--simd", "mmx"}, "baseline"},             //
+                                         WrongValue{{"--memory", "1"}, "512MiB"},               //
+                                         WrongValue{{"--memory", "0GiB"}, "512MiB"},            //
+                                         WrongValue{{"--memory", "1GiBs"}, "4GiB"},             //
+                                         WrongValue{{"--memory", "nanGiB"}, "4GiB"},            //
+                                         WrongValue{{"--memory", "-1GiB"}, "auto"},             //
                                          WrongValue{{"--bounds", "1", "2", "3"}, "six"},        //
                                          WrongValue{{"--bounds", "0 0 0 1 1 x"}, "x0 y0 z0 x1 y1 z1"}));
 

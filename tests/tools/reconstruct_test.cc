@@ -107,6 +107,28 @@ TEST_F(Reconstruct, DepthThenFuseGivesTheSameBytes) {
   expect_same_files(whole, results("parts"));
 }
 
+TEST_F(Reconstruct, ABudgetIsKeptAndLeavesEveryByteAlone) {
+  const std::vector<std::string> fine = {"--device", "cpu", "--voxel-size", "0.6mm"};  // 26 MiB of voxels
+  const Files whole = reconstruct("whole", fine);
+  ASSERT_EQ(report("whole")["volume"]["slabs"], 1);
+  auto with_budget = fine;
+  with_budget.insert(with_budget.end(), {"--quiet", "--memory", "1MiB"});
+  const ProgramResult refused = run("reconstruct", "tight", with_budget);
+  expect_failure(refused, 5, {"budget of 1 MiB", "give --memory "});
+  // What the first stage needs at least; the others tell more if they need more.
+  ProgramResult tight = refused;
+  for (int attempt = 0; attempt < 3 && tight.exit_code == 5; ++attempt) {
+    const std::size_t at = tight.err.find("give --memory ") + 14;
+    with_budget.back() = tight.err.substr(at, tight.err.find('\n', at) - at);
+    tight = run("reconstruct", "tight", with_budget);
+  }
+  ASSERT_EQ(tight.exit_code, 0) << tight.err;
+  expect_same_files(whole, results("tight"));
+  const auto tight_report = report("tight");
+  EXPECT_LE(tight_report["peak_memory_bytes"].get<double>(), tight_report["memory_budget_bytes"].get<double>());
+  EXPECT_GT(tight_report["volume"]["slabs"].get<int>(), 1);
+}
+
 TEST_F(Reconstruct, RunJsonTellsWhatWasDone) {
   const ProgramResult result =
       run("reconstruct", "result", {"--device", "cpu", "--quiet", "--json", "--threshold", "0.5"});

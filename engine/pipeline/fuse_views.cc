@@ -1,0 +1,133 @@
+#include "engine/pipeline/fuse_views.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "engine/mesh/marching_cubes.h"
+#include "engine/volume/slabs.h"
+
+namespace quorum {
+namespace {
+
+constexpr std::uint64_t kVoxelBytes = kBlockVoxels * sizeof(Voxel);  // of a block
+constexpr std::uint64_t kSurfaceBytes = 1280;  // of a block: signs, and room for 32 vertices; a scan has some 16
+
+/// Indices of blocks, ascending.
+using Blocks = std::vector<std::uint32_t>;
+
+struct CollectedBlocks {
+  std::vector<Blocks> of_view;
+  Blocks all;
+};
+
+/// What a view takes while it is merged: its maps and photograph, and the next view's, which are read meanwhile; a bit
+/// for every block of the grid.
+std::uint64_t view_bytes(const FusionInput& input) {
+  constexpr std::uint64_t kInputBytes = 28;  // a pixel: three maps, a file's bytes, the photograph and its padded copy
+  std::uint64_t pixels = 0;
+  for (const int index : input.views) {
+    const View& view = input.scene.views[static_cast<std::size_t>(index)];
+    pixels = std::max(pixels, static_cast<std::uint64_t>(view.width) * static_cast<std::uint64_t>(view.height));
+  }
+  return 2 * kInputBytes * pixels + input.backend.view_bytes(pixels, 0) + input.grid.block_count() / 4;
+}
+
+Expected<DepthMap> load_map(const FusionInput& input, const View& view) {
+  if (input.progress.stop_requested())
+    return failure(ErrorKind::kStopped, "stopped as asked; finished depth maps are kept");
+  return input.workspace.load_depth_map(view.name, view.width, view.height);
+}
+
+/// The blocks near the surface of each view.
+Expected<CollectedBlocks> collect_blocks(const FusionInput& input) {
+  const StageTimer timer(input.report, "collect_blocks");
+  input.progress.stage("finding voxel blocks", static_cast<int>(input.views.size()));
+  const PaddedImage no_image;
+  CollectedBlocks collected;
+  for (const int index : input.views) {
+    const View& view = input.scene.views[static_cast<std::size_t>(index)];
+    const auto map = load_map(input, view);
+    if (!map) return std::unexpected(map.error());
+    auto blocks = input.backend.collect_blocks({*map, no_image, view.camera});
+    if (!blocks) return std::unexpected(blocks.error());
+    Blocks merged;
+    merged.reserve(collected.all.size() + blocks->size());
+    std::ranges::set_union(collected.all, *blocks, std::back_inserter(merged));
+    collected.all = std::move(merged);
+    input.report.block_views += blocks->size();
+    collected.of_view.push_back(std::move(*blocks));
+    input.progress.step();
+  }
+  input.report.blocks = collected.all.size();
+  return collected;
+}
+
+/// Merges the views that see a slab into it, and reads it back.
+Expected<BlockPool> fill_slab(const FusionInput& input, const CollectedBlocks& collected, const Slab& slab) {
+  {
+    const StageTimer timer(input.report, "integrate");
+    input.progress.stage("merging depth maps", static_cast<int>(input.views.size()));
+    if (auto allocated = input.backend.allocate_blocks(slab.blocks); !allocated)
+      return std::unexpected(allocated.error());
+    for (std::size_t i = 0; i < input.views.size(); ++i) {
+      Blocks seen;
+      std::ranges::set_intersection(collected.of_view[i], slab.blocks, std::back_inserter(seen));
+      input.progress.step();
+      if (seen.empty()) continue;
+      const View& view = input.scene.views[static_cast<std::size_t>(input.views[i])];
+      const auto map = load_map(input, view);
+      if (!map) return std::unexpected(map.error());
+      const auto image = input.images.image(input.views[i]);
+      if (!image) return std::unexpected(image.error());
+      if (auto done = input.backend.integrate({*map, pad_image(**image), view.camera}, seen); !done)
+        return std::unexpected(done.error());
+    }
+  }
+  const StageTimer timer(input.report, "read_blocks");
+  return input.backend.read_blocks();
+}
+
+/// The largest slab from block `first` on that the budget holds now.
+Expected<Slab> next_slab(const FusionInput& input, const Blocks& blocks, std::size_t first) {
+  const std::uint64_t view = view_bytes(input);
+  const auto voxel_room = [&](std::uint64_t room) { return room / (kVoxelBytes + kSurfaceBytes) * kVoxelBytes; };
+  std::uint64_t least = kLeastSlabBlocks * (kVoxelBytes + kSurfaceBytes);
+  while (input.backend.max_blocks(voxel_room(least)) < kLeastSlabBlocks) least *= 2;
+  if (auto fits = input.budget.require(view + least, "merging depth maps"); !fits) return std::unexpected(fits.error());
+  const std::uint64_t room = std::max(input.budget.left(), view + least) - view;
+  return make_slab(blocks, first, input.grid, input.backend.max_blocks(voxel_room(room)));
+}
+
+}  // namespace
+
+Expected<Mesh> fuse_views(const FusionInput& input) {
+  if (auto fits = input.budget.require(view_bytes(input), "finding voxel blocks"); !fits)
+    return std::unexpected(fits.error());
+  if (auto begun = input.backend.begin_volume(input.grid, input.options); !begun) return std::unexpected(begun.error());
+  const auto collected = collect_blocks(input);
+  if (!collected) return std::unexpected(collected.error());
+
+  MarchingCubes surface(input.grid);
+  for (std::size_t first = 0; first < collected->all.size();) {
+    const auto slab = next_slab(input, collected->all, first);
+    if (!slab) return std::unexpected(slab.error());
+    const auto pool = fill_slab(input, *collected, *slab);
+    if (!pool) return std::unexpected(pool.error());
+    const StageTimer timer(input.report, "marching_cubes");
+    surface.add(*pool, slab->core_count);
+    first += slab->core_count;
+    ++input.report.slabs;
+  }
+  // Of a vertex: numbers, two triangles and their copy, a normal in double, components, the cleaned vertex.
+  constexpr std::uint64_t kVertexBytes = 120;
+  constexpr std::uint64_t kBlockBytes = 212;
+  if (auto fits =
+          input.budget.require(kVertexBytes * surface.vertex_count() + kBlockBytes * collected->all.size(), "the mesh");
+      !fits)
+    return std::unexpected(fits.error());
+  const StageTimer timer(input.report, "marching_cubes");
+  input.progress.stage("extracting the mesh", 1);
+  return surface.finish();
+}
+
+}  // namespace quorum

@@ -1,0 +1,37 @@
+// The second half of a run without its files' names: depth maps of many views to one surface, slab by slab where the
+// volume is larger than the memory.
+#pragma once
+
+#include <vector>
+
+#include "engine/io/image_store.h"
+#include "engine/mesh/mesh.h"
+#include "engine/pipeline/backend.h"
+#include "engine/pipeline/memory_budget.h"
+#include "engine/pipeline/progress.h"
+#include "engine/pipeline/run_report.h"
+#include "engine/pipeline/workspace.h"
+#include "engine/scene/scene.h"
+
+namespace quorum {
+
+/// What the fusion works with. Everything outlives the call.
+struct FusionInput {
+  const Scene& scene;
+  const std::vector<int>& views;  ///< that have a depth map in the workspace
+  const VoxelGrid& grid;
+  const FusionOptions& options;
+  const Workspace& workspace;
+  const MemoryBudget& budget;
+  Backend& backend;
+  ImageStore& images;
+  Progress& progress;
+  RunReport& report;
+};
+
+/// The surface that the views agree on, before cleaning; the same mesh for any budget. Fails (kInput) if a file does
+/// not fit its view, (kMemory) if the budget does not hold the smallest slab or the mesh, as the backend does, or
+/// (kStopped).
+Expected<Mesh> fuse_views(const FusionInput& input);
+
+}  // namespace quorum

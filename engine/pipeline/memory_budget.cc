@@ -1,0 +1,33 @@
+#include "engine/pipeline/memory_budget.h"
+
+#include <fmt/format.h>
+
+#include "engine/core/memory.h"
+
+namespace quorum {
+namespace {
+
+constexpr std::uint64_t kStep = 8 << 20;  // the process does not hold the same to the byte in every run
+
+}  // namespace
+
+MemoryBudget::MemoryBudget(std::uint64_t bytes) : bytes_(bytes) {
+  if (bytes_ == 0) bytes_ = resident_bytes() + available_bytes() / 4 * 3;
+  return_freed_memory();
+}
+
+std::uint64_t MemoryBudget::left() const {
+  return_freed_memory();
+  const std::uint64_t held = resident_bytes() + kStep;
+  return bytes_ > held ? bytes_ - held : 0;
+}
+
+Expected<void> MemoryBudget::require(std::uint64_t more, const std::string& what_for) const {
+  if (more <= left()) return {};
+  const std::uint64_t least = (resident_bytes() + more + more / 16 + 3 * kStep - 1) / kStep * kStep;
+  return failure(ErrorKind::kMemory, fmt::format("{} needs {} MiB of memory at least, more than the budget of {} MiB; "
+                                                 "give --memory {}MiB",
+                                                 what_for, least >> 20, bytes_ >> 20, least >> 20));
+}
+
+}  // namespace quorum

@@ -1,0 +1,50 @@
+#include "tests/support/fusion_scene.h"
+
+#include "engine/io/image_file.h"
+#include "tests/support/sphere_scene.h"
+
+namespace quorum {
+namespace {
+
+DepthMap exact_map(const View& view) {
+  DepthMap map;
+  map.depth = map.correlation = map.confidence = Grid<float>(view.width, view.height);
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      map.depth.at(x, y) = static_cast<float>(sphere_depth(view, x, y));
+      if (map.depth.at(x, y) > 0) map.correlation.at(x, y) = map.confidence.at(x, y) = 1.0F;
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+FusionScene::FusionScene() {
+  SphereScene sphere = make_surrounding_sphere_scene(8, 121, 101, 1);
+  scene_ = sphere.scene;
+  const Workspace workspace = Workspace::open(folder_.path()).value();
+  for (std::size_t index = 0; index < scene_.views.size(); ++index) {
+    View& view = scene_.views[index];
+    view.name = "view" + std::to_string(index);
+    view.image_path = folder_.path() / (view.name + ".png");
+    write_png(view.image_path, sphere.images[index]).value();
+    workspace.save_depth_map(view.name, exact_map(view)).value();
+  }
+}
+
+Expected<Mesh> FusionScene::fuse(Backend& backend, RunReport& report, std::uint64_t memory_bytes) const {
+  FusionOptions options;
+  options.voxel_size = 0.05;
+  options.truncation = 0.3;
+  const VoxelGrid grid = make_voxel_grid(scene_, options).value();
+  const Workspace workspace = Workspace::open(folder_.path()).value();
+  std::vector<int> views;
+  for (std::size_t index = 0; index < scene_.views.size(); ++index) views.push_back(static_cast<int>(index));
+  const MemoryBudget budget(memory_bytes);
+  ImageStore images(scene_, 0);
+  Progress progress;
+  return fuse_views({scene_, views, grid, options, workspace, budget, backend, images, progress, report});
+}
+
+}  // namespace quorum
