@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "engine/core/clock.h"
 #include "engine/core/memory.h"
 #include "engine/io/file.h"
 #include "engine/io/middlebury.h"
@@ -231,17 +232,18 @@ Expected<void> run_pipeline(RunArguments& arguments, const PipelineStages& stage
   RunReport report;
   report.device = (*backend)->description();
   progress.note(fmt::format("{} views, on {}", scene->views.size(), report.device));
+  const double wall_start = wall_seconds();
+  const double cpu_start = process_cpu_seconds();
   auto done = stages(*scene, arguments.options, **backend, *workspace, progress, report);
+  report.wall_seconds = wall_seconds() - wall_start;
+  report.cpu_seconds = process_cpu_seconds() - cpu_start;
   progress.finish();
   if (!done) return done;
   const std::string json = run_json(*scene, arguments.options, report);
   if (auto written = write_file(workspace->report_path(), json); !written) return written;
   if (arguments.json) fmt::print("{}", json);
-  double cpu_seconds = 0.0;
-  double wall_seconds = 0.0;
-  for (const StageReport& stage : report.stages) cpu_seconds += stage.cpu_seconds, wall_seconds += stage.wall_seconds;
-  progress.note(fmt::format("{}: {:.1f} s, {:.1f} CPU s, {} MiB at most", workspace->folder().string(), wall_seconds,
-                            cpu_seconds, peak_memory_bytes() >> 20));
+  progress.note(fmt::format("{}: {:.1f} s, {:.1f} CPU s, {} MiB at most", workspace->folder().string(),
+                            report.wall_seconds, report.cpu_seconds, peak_memory_bytes() >> 20));
   return {};
 }
 

@@ -55,8 +55,13 @@ std::uint64_t available_bytes() {
 
 void return_freed_memory() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 512 << 10);  // also keeps glibc from raising it with the first large block that is freed
   malloc_trim(0);
+#endif
+}
+
+void return_large_blocks_at_once() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 512 << 10);  // also keeps glibc from raising it with the first large block that is freed
 #endif
 }
 

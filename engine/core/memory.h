@@ -15,7 +15,10 @@ std::uint64_t resident_bytes();
 /// this one belongs to. 0 if the system does not tell.
 std::uint64_t available_bytes();
 
-/// From now on, large blocks go back to the system as soon as they are freed, and small ones at each call.
+/// Gives memory that was freed back to the system, as far as it can be.
 void return_freed_memory();
+
+/// From now on, large blocks go back to the system as soon as they are freed, which costs some time at each.
+void return_large_blocks_at_once();
 
 }  // namespace quorum

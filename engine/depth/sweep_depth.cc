@@ -115,7 +115,7 @@ Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& rang
   QUORUM_CHECK_EQ(ranges.width, task.reference->width);
   QUORUM_CHECK_LE(cpu.tile_width, kMaxTileSide);
   QUORUM_CHECK_LE(cpu.tile_height, kMaxTileSide);
-  const double cpu_start = process_cpu_seconds();
+  const double cpu_start = foreground_cpu_seconds();
   const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
   const int window = task.options.window;
   std::atomic<std::uint64_t> tests = 0;
@@ -143,7 +143,7 @@ Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& rang
     const auto neighbors = static_cast<std::uint64_t>(task.neighbor_count());
     work->windows += tests * neighbors;
     work->samples += samples * neighbors;
-    work->cpu_seconds += process_cpu_seconds() - cpu_start;
+    work->cpu_seconds += foreground_cpu_seconds() - cpu_start;
   }
   return votes;
 }

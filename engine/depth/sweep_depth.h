@@ -32,7 +32,7 @@ struct CpuSweepOptions {
 struct PassWork {
   std::uint64_t windows = 0;  ///< pixel · depth · neighbor that the ranges ask for
   std::uint64_t samples = 0;  ///< of neighbors, interpolated; with borders of tiles and pixels that a tile takes along
-  double cpu_seconds = 0.0;   ///< of the process while the pass ran
+  double cpu_seconds = 0.0;   ///< of the threads that compute
 };
 
 struct SweepWork {

@@ -18,9 +18,9 @@ namespace quorum {
 
 template <typename Work>
 auto CpuBackend::timed(const char* kernel, const Work& work) {
-  const double start = process_cpu_seconds();
+  const double start = foreground_cpu_seconds();
   auto result = work();
-  add_time(kernel, process_cpu_seconds() - start);
+  add_time(kernel, foreground_cpu_seconds() - start);
   return result;
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "engine/mesh/marching_cubes.h"
+#include "engine/pipeline/background_thread.h"
 #include "engine/volume/slabs.h"
 
 namespace quorum {
@@ -32,23 +34,54 @@ std::uint64_t view_bytes(const FusionInput& input) {
   return 2 * kInputBytes * pixels + input.backend.view_bytes(pixels, 0) + input.grid.block_count() / 4;
 }
 
-Expected<DepthMap> load_map(const FusionInput& input, const View& view) {
-  if (input.progress.stop_requested())
-    return failure(ErrorKind::kStopped, "stopped as asked; finished depth maps are kept");
-  return input.workspace.load_depth_map(view.name, view.width, view.height);
+/// What is read of a view.
+struct LoadedView {
+  DepthMap map;
+  PaddedImage image;
+};
+
+/// Calls use(place, map, image) for the given places in input.views, in order, while the next view is read. The image
+/// is empty if none is wanted.
+template <typename Use>
+Expected<void> for_each_view(const FusionInput& input, const std::vector<std::size_t>& places, bool with_image,
+                             const Use& use) {
+  BackgroundThread reader;
+  const auto read = [&](std::size_t place) {
+    return reader.run([&input, index = input.views[place], with_image]() -> Expected<LoadedView> {
+      const View& view = input.scene.views[static_cast<std::size_t>(index)];
+      auto map = input.workspace.load_depth_map(view.name, view.width, view.height);
+      if (!map) return std::unexpected(map.error());
+      if (!with_image) return LoadedView{std::move(*map), {}};
+      const auto image = input.images.image(index);
+      if (!image) return std::unexpected(image.error());
+      return LoadedView{std::move(*map), pad_image(**image)};
+    });
+  };
+  std::future<Expected<LoadedView>> reading;
+  if (!places.empty()) reading = read(places[0]);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (input.progress.stop_requested())
+      return failure(ErrorKind::kStopped, "stopped as asked; finished depth maps are kept");
+    const Expected<LoadedView> loaded = reading.get();
+    if (i + 1 < places.size()) reading = read(places[i + 1]);
+    if (!loaded) return std::unexpected(loaded.error());
+    const Camera& camera = input.scene.views[static_cast<std::size_t>(input.views[places[i]])].camera;
+    if (auto used = use(places[i], FusionView{loaded->map, loaded->image, camera}); !used) return used;
+    input.progress.step();
+  }
+  add_stage(input.report, reader.time("load_depth_maps"));
+  return {};
 }
 
 /// The blocks near the surface of each view.
 Expected<CollectedBlocks> collect_blocks(const FusionInput& input) {
   const StageTimer timer(input.report, "collect_blocks");
   input.progress.stage("finding voxel blocks", static_cast<int>(input.views.size()));
-  const PaddedImage no_image;
   CollectedBlocks collected;
-  for (const int index : input.views) {
-    const View& view = input.scene.views[static_cast<std::size_t>(index)];
-    const auto map = load_map(input, view);
-    if (!map) return std::unexpected(map.error());
-    auto blocks = input.backend.collect_blocks({*map, no_image, view.camera});
+  std::vector<std::size_t> places(input.views.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  auto done = for_each_view(input, places, false, [&](std::size_t, const FusionView& view) -> Expected<void> {
+    auto blocks = input.backend.collect_blocks(view);
     if (!blocks) return std::unexpected(blocks.error());
     Blocks merged;
     merged.reserve(collected.all.size() + blocks->size());
@@ -56,8 +89,9 @@ Expected<CollectedBlocks> collect_blocks(const FusionInput& input) {
     collected.all = std::move(merged);
     input.report.block_views += blocks->size();
     collected.of_view.push_back(std::move(*blocks));
-    input.progress.step();
-  }
+    return {};
+  });
+  if (!done) return std::unexpected(done.error());
   input.report.blocks = collected.all.size();
   return collected;
 }
@@ -66,22 +100,19 @@ Expected<CollectedBlocks> collect_blocks(const FusionInput& input) {
 Expected<BlockPool> fill_slab(const FusionInput& input, const CollectedBlocks& collected, const Slab& slab) {
   {
     const StageTimer timer(input.report, "integrate");
-    input.progress.stage("merging depth maps", static_cast<int>(input.views.size()));
+    std::vector<Blocks> seen(input.views.size());
+    std::vector<std::size_t> places;  // of the views that see the slab
+    for (std::size_t place = 0; place < input.views.size(); ++place) {
+      std::ranges::set_intersection(collected.of_view[place], slab.blocks, std::back_inserter(seen[place]));
+      if (!seen[place].empty()) places.push_back(place);
+    }
+    input.progress.stage("merging depth maps", static_cast<int>(places.size()));
     if (auto allocated = input.backend.allocate_blocks(slab.blocks); !allocated)
       return std::unexpected(allocated.error());
-    for (std::size_t i = 0; i < input.views.size(); ++i) {
-      Blocks seen;
-      std::ranges::set_intersection(collected.of_view[i], slab.blocks, std::back_inserter(seen));
-      input.progress.step();
-      if (seen.empty()) continue;
-      const View& view = input.scene.views[static_cast<std::size_t>(input.views[i])];
-      const auto map = load_map(input, view);
-      if (!map) return std::unexpected(map.error());
-      const auto image = input.images.image(input.views[i]);
-      if (!image) return std::unexpected(image.error());
-      if (auto done = input.backend.integrate({*map, pad_image(**image), view.camera}, seen); !done)
-        return std::unexpected(done.error());
-    }
+    auto done = for_each_view(input, places, true, [&](std::size_t place, const FusionView& view) {
+      return input.backend.integrate(view, seen[place]);
+    });
+    if (!done) return std::unexpected(done.error());
   }
   const StageTimer timer(input.report, "read_blocks");
   return input.backend.read_blocks();

@@ -12,8 +12,10 @@ constexpr std::uint64_t kStep = 8 << 20;  // the process does not hold the same 
 }  // namespace
 
 MemoryBudget::MemoryBudget(std::uint64_t bytes) : bytes_(bytes) {
-  if (bytes_ == 0) bytes_ = resident_bytes() + available_bytes() / 4 * 3;
-  return_freed_memory();
+  if (bytes_ == 0)
+    bytes_ = resident_bytes() + available_bytes() / 4 * 3;
+  else
+    return_large_blocks_at_once();
 }
 
 std::uint64_t MemoryBudget::left() const {

@@ -8,6 +8,7 @@
 #include "engine/depth/plane_warp.h"
 #include "engine/io/image_store.h"
 #include "engine/io/ply.h"
+#include "engine/pipeline/background_thread.h"
 #include "engine/pipeline/fuse_views.h"
 
 namespace quorum {
@@ -61,6 +62,31 @@ ViewReport report_view(const Scene& scene, int reference, const std::vector<int>
 
 Error stopped() { return {ErrorKind::kStopped, "stopped as asked; finished depth maps are kept"}; }
 
+/// A view whose depth map is to be computed.
+struct ReferenceView {
+  int index = 0;
+  std::vector<int> neighbors;
+};
+
+/// The views that have enough neighbors. The others are noted, and what is left of their depth maps is removed.
+std::vector<ReferenceView> choose_references(const Scene& scene, const SelectViewsOptions& options,
+                                             const Workspace& workspace, Progress& progress) {
+  constexpr std::size_t kLeastNeighbors = 2;  // the paper, 4.3: every point is seen in at least three views
+  std::vector<ReferenceView> chosen;
+  for (int index = 0; index < static_cast<int>(scene.views.size()); ++index) {
+    std::vector<int> neighbors = select_views(scene, index, options);
+    if (neighbors.size() >= kLeastNeighbors) {
+      chosen.push_back({index, std::move(neighbors)});
+      continue;
+    }
+    const std::string& name = view_at(scene, index).name;
+    workspace.remove_depth_map(name);
+    progress.note(fmt::format("{}: has {} neighbor views within {} to {} degrees, needs 2; left out", name,
+                              neighbors.size(), options.min_angle_deg, options.max_angle_deg));
+  }
+  return chosen;
+}
+
 /// What the depth map of one view takes at most: its task and the next one's, which is read meanwhile, the sweep, and
 /// the maps of the last view, which are written meanwhile.
 std::uint64_t view_bytes(const Scene& scene, const ReconstructOptions& options, const Backend& backend) {
@@ -70,7 +96,7 @@ std::uint64_t view_bytes(const Scene& scene, const ReconstructOptions& options, 
   std::uint64_t pixels = 0;
   for (const View& view : scene.views)
     pixels = std::max(pixels, static_cast<std::uint64_t>(view.width) * static_cast<std::uint64_t>(view.height));
-  return (3 * task_bytes + 2 * kWrittenBytes) * pixels + backend.view_bytes(pixels, options.views.neighbor_count);
+  return (2 * task_bytes + kWrittenBytes) * pixels + backend.view_bytes(pixels, options.views.neighbor_count);
 }
 
 }  // namespace
@@ -88,29 +114,32 @@ Expected<void> ReconstructOptions::check() const {
 
 Expected<void> compute_depth_maps(const Scene& scene, const ReconstructOptions& options, Backend& backend,
                                   const Workspace& workspace, Progress& progress, RunReport& report) {
-  constexpr std::size_t kLeastNeighbors = 2;  // the paper, 4.3: every point is seen in at least three views
   const MemoryBudget budget(options.memory_bytes);
   report.memory_budget_bytes = budget.bytes();
   const std::uint64_t in_flight = view_bytes(scene, options, backend);
   if (auto fits = budget.require(in_flight, "computing depth maps"); !fits) return fits;
   ImageStore images(scene, std::max(budget.left(), in_flight) - in_flight, options.mask_below);
-  progress.stage("computing depth maps", static_cast<int>(scene.views.size()));
-  for (int reference = 0; reference < static_cast<int>(scene.views.size()); ++reference) {
+  const auto references = choose_references(scene, options.views, workspace, progress);
+  progress.stage("computing depth maps", static_cast<int>(references.size()));
+
+  // While one view is swept, the next one's photographs are read and the last one's maps are written.
+  BackgroundThread reader;
+  BackgroundThread writer;
+  const auto read = [&](std::size_t place) {
+    return reader.run([&scene, &options, &images, view = references[place]] {
+      return make_sweep_task(scene, view.index, view.neighbors, options.sweep, images);
+    });
+  };
+  std::future<Expected<SweepTask>> reading;
+  if (!references.empty()) reading = read(0);
+  std::future<Expected<void>> writing = writer.run([] { return Expected<void>(); });
+  for (std::size_t place = 0; place < references.size(); ++place) {
     if (progress.stop_requested()) return std::unexpected(stopped());
+    const auto& [reference, neighbors] = references[place];
     const std::string& name = view_at(scene, reference).name;
-    const std::vector<int> neighbors = select_views(scene, reference, options.views);
     workspace.remove_depth_map(name);
-    if (neighbors.size() < kLeastNeighbors) {
-      progress.note(fmt::format("{}: has {} neighbor views within {} to {} degrees, needs 2; left out", name,
-                                neighbors.size(), options.views.min_angle_deg, options.views.max_angle_deg));
-      progress.step();
-      continue;
-    }
-    Expected<SweepTask> task = failure(ErrorKind::kInput, "");
-    {
-      const StageTimer timer(report, "load_images");
-      task = make_sweep_task(scene, reference, neighbors, options.sweep, images);
-    }
+    const Expected<SweepTask> task = reading.get();
+    if (place + 1 < references.size()) reading = read(place + 1);
     if (!task) return std::unexpected(task.error());
     Expected<DepthMap> map = failure(ErrorKind::kInput, "");
     {
@@ -119,10 +148,13 @@ Expected<void> compute_depth_maps(const Scene& scene, const ReconstructOptions& 
     }
     if (!map) return std::unexpected(map.error().within(name));
     report.views.push_back(report_view(scene, reference, neighbors, *task, *map));
-    const StageTimer timer(report, "save_depth_maps");
-    if (auto saved = workspace.save_depth_map(name, *map); !saved) return saved;
+    if (auto saved = writing.get(); !saved) return saved;
+    writing = writer.run([&workspace, &name, map = std::move(*map)] { return workspace.save_depth_map(name, map); });
     progress.step();
   }
+  if (auto saved = writing.get(); !saved) return saved;
+  add_stage(report, reader.time("load_images"));
+  add_stage(report, writer.time("save_depth_maps"));
   report.kernels = backend.kernel_times();
   report.sweep = backend.sweep_counts();
   if (report.views.empty())

@@ -66,6 +66,8 @@ std::string run_json(const Scene& scene, const ReconstructOptions& options, cons
       {"device", report.device},
       {"scene", {{"views", scene.views.size()}, {"bounds", {point(scene.bounds.low), point(scene.bounds.high)}}}},
       {"options", json_of(options)},
+      {"wall_seconds", report.wall_seconds},
+      {"cpu_seconds", report.cpu_seconds},
       {"stages", stages},
       {"kernels", kernels},
       {"work",

@@ -11,7 +11,8 @@ namespace quorum {
 /// The options as indented JSON text, each under its name on the command line with _ for -. Lengths are in scene units.
 std::string options_json(const ReconstructOptions& options);
 
-/// The report as indented JSON text. Lengths are in scene units, times in seconds, memory in bytes.
+/// The report as indented JSON text. Lengths are in scene units, times in seconds, memory in bytes. Stages overlap: see
+/// StageReport.
 std::string run_json(const Scene& scene, const ReconstructOptions& options, const RunReport& report);
 
 }  // namespace quorum

@@ -7,15 +7,18 @@
 
 namespace quorum {
 
+void add_stage(RunReport& report, const StageReport& time) {
+  auto stage = std::ranges::find(report.stages, time.name, &StageReport::name);
+  if (stage == report.stages.end()) stage = report.stages.insert(stage, StageReport{time.name, 0.0, 0.0});
+  stage->wall_seconds += time.wall_seconds;
+  stage->cpu_seconds += time.cpu_seconds;
+}
+
 StageTimer::StageTimer(RunReport& report, std::string name)
-    : report_(report), name_(std::move(name)), wall_start_(wall_seconds()), cpu_start_(process_cpu_seconds()) {}
+    : report_(report), name_(std::move(name)), wall_start_(wall_seconds()), cpu_start_(foreground_cpu_seconds()) {}
 
 StageTimer::~StageTimer() {
-  auto stage = std::find_if(report_.stages.begin(), report_.stages.end(),
-                            [&](const StageReport& candidate) { return candidate.name == name_; });
-  if (stage == report_.stages.end()) stage = report_.stages.insert(stage, StageReport{name_, 0.0, 0.0});
-  stage->wall_seconds += wall_seconds() - wall_start_;
-  stage->cpu_seconds += process_cpu_seconds() - cpu_start_;
+  add_stage(report_, {name_, wall_seconds() - wall_start_, foreground_cpu_seconds() - cpu_start_});
 }
 
 }  // namespace quorum

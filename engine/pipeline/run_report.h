@@ -9,7 +9,9 @@
 
 namespace quorum {
 
-/// Wall and CPU seconds of one stage of the whole process.
+/// Wall and CPU seconds of one stage. Stages overlap: files are read and written beside the computation, on threads of
+/// their own. The time of these is theirs alone, and the CPU time of the other stages is without it, so CPU seconds add
+/// up to those of the run; wall seconds add up to more.
 struct StageReport {
   std::string name;
   double wall_seconds = 0.0;
@@ -27,6 +29,8 @@ struct ViewReport {
 struct RunReport {
   std::string device;
   std::vector<StageReport> stages;
+  double wall_seconds = 0.0;  ///< of the whole run
+  double cpu_seconds = 0.0;   ///< of the whole run, all threads
   std::vector<StageTime> kernels;
   SweepCounts sweep;
   std::vector<ViewReport> views;
@@ -41,6 +45,9 @@ struct RunReport {
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
 };
+
+/// Adds to the stage of that name, or as a new one.
+void add_stage(RunReport& report, const StageReport& time);
 
 /// Measures the stage from its making to its end, and adds it to the report (to a stage of that name, if there is one).
 class StageTimer {

@@ -39,6 +39,7 @@ class LimitedBackend : public Backend {
     return inner_.view_bytes(pixels, neighbors);
   }
   [[nodiscard]] std::vector<StageTime> kernel_times() const override { return inner_.kernel_times(); }
+  [[nodiscard]] SweepCounts sweep_counts() const override { return inner_.sweep_counts(); }
 
  private:
   Backend& inner_;
