@@ -21,7 +21,8 @@ constexpr std::uint64_t kStagingBytes = 16U << 20;  // a copy of this size takes
 std::string in_mib(std::uint64_t bytes) { return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1U << 20)); }
 
 Allocation allocate_storage(const Device::State& device, std::uint64_t capacity) {
-  const vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
+  const vk::BufferUsageFlags usage =
+      Usage::eStorageBuffer | Usage::eUniformTexelBuffer | Usage::eTransferSrc | Usage::eTransferDst;
   // Mapped memory is used directly only where the host also reads it fast (cached): integrated GPUs and software.
   // Discrete GPUs have a window into their memory, but reading through it is slower than a copy.
   const vk::MemoryPropertyFlags direct =

@@ -19,6 +19,7 @@ struct Commands::State {
   CommandsOptions options;
   Recorder recorder;
   Descriptors descriptors;
+  std::vector<vk::raii::BufferView> texel_views;  ///< of what is recorded
   Timestamps timestamps;
   std::vector<RegionTiming> timings;
   double last_submission_seconds = 0.0;
@@ -45,6 +46,7 @@ void Commands::State::start() {
     device->settle();
     recorder.pool.reset();
     descriptors.reset();
+    texel_views.clear();
     recorder.commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     recording = true;
     timestamps.begin(recorder.commands);
@@ -97,29 +99,44 @@ BoundRange range_of(const BufferView& view) {
   return range;
 }
 
-vk::DescriptorSet bind_buffers(Descriptors& descriptors, const Kernel::State& kernel,
-                               std::span<const BufferView> buffers) {
+vk::DescriptorBufferInfo storage_of(const BufferView& view, const vk::PhysicalDeviceLimits& limits) {
+  QUORUM_CHECK_EQ(view.offset % limits.minStorageBufferOffsetAlignment, 0U);
+  const auto [offset, size] = range_of(view);
+  QUORUM_CHECK_LE(size, limits.maxStorageBufferRange);
+  return {.buffer = *view.buffer->state().allocation.buffer, .offset = offset, .range = size};
+}
+
+vk::raii::BufferView texels_of(const BufferView& view, const Device::State& device) {
+  constexpr std::uint64_t kTexelBytes = 16;
+  QUORUM_CHECK_EQ(view.offset % device.limits.minTexelBufferOffsetAlignment, 0U);
+  QUORUM_CHECK_EQ(view.size % kTexelBytes, 0U);
+  QUORUM_CHECK_LE(view.size / kTexelBytes, device.limits.maxTexelBufferElements);
+  return {device.device, vk::BufferViewCreateInfo{.buffer = *view.buffer->state().allocation.buffer,
+                                                  .format = vk::Format::eR32G32B32A32Uint,
+                                                  .offset = view.offset,
+                                                  .range = view.size}};
+}
+
+// texel_views: keeps what the set refers to.
+vk::DescriptorSet bind_buffers(Descriptors& descriptors, std::vector<vk::raii::BufferView>& texel_views,
+                               const Kernel::State& kernel, std::span<const BufferView> buffers) {
   const vk::DescriptorSet set = descriptors.make_set(kernel);
-  const vk::PhysicalDeviceLimits& limits = kernel.device->limits;
-  std::vector<vk::DescriptorBufferInfo> infos;
-  infos.reserve(buffers.size());
-  for (const BufferView& view : buffers) {
+  for (std::uint32_t i = 0; i < buffers.size(); ++i) {
+    const BufferView& view = buffers[i];
     QUORUM_CHECK_EQ(view.buffer->state().device == kernel.device, true);
-    QUORUM_CHECK_EQ(view.offset % limits.minStorageBufferOffsetAlignment, 0U);
-    const auto [offset, size] = range_of(view);
-    QUORUM_CHECK_LE(size, limits.maxStorageBufferRange);
-    infos.push_back({.buffer = *view.buffer->state().allocation.buffer, .offset = offset, .range = size});
+    const BufferKind kind = kernel.layout.buffers[i];
+    vk::WriteDescriptorSet write{
+        .dstSet = set, .dstBinding = i, .descriptorCount = 1, .descriptorType = descriptor_type(kind)};
+    vk::DescriptorBufferInfo storage;
+    if (kind == BufferKind::kTexels) {
+      texel_views.push_back(texels_of(view, *kernel.device));
+      write.pTexelBufferView = &*texel_views.back();
+    } else {
+      storage = storage_of(view, kernel.device->limits);
+      write.pBufferInfo = &storage;
+    }
+    kernel.device->device.updateDescriptorSets(write, {});
   }
-  std::vector<vk::WriteDescriptorSet> writes;
-  writes.reserve(infos.size());
-  for (std::uint32_t i = 0; i < infos.size(); ++i) {
-    writes.push_back({.dstSet = set,
-                      .dstBinding = i,
-                      .descriptorCount = 1,
-                      .descriptorType = vk::DescriptorType::eStorageBuffer,
-                      .pBufferInfo = &infos[i]});
-  }
-  kernel.device->device.updateDescriptorSets(writes, {});
   return set;
 }
 
@@ -175,7 +192,7 @@ void Commands::record(const Kernel& kernel, const Threads& threads, std::span<co
     return;
   }
   state_->record([&](const vk::raii::CommandBuffer& commands) {
-    const vk::DescriptorSet set = bind_buffers(state_->descriptors, built, buffers);
+    const vk::DescriptorSet set = bind_buffers(state_->descriptors, state_->texel_views, built, buffers);
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *built.pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *built.pipeline_layout, 0, set, {});
     if (!params.empty()) {

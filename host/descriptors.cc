@@ -1,6 +1,7 @@
 #include "host/descriptors.h"
 
 #include <algorithm>
+#include <array>
 
 namespace quorum {
 
@@ -28,10 +29,13 @@ Descriptors::Pool& Descriptors::pool_with_room(std::uint32_t buffers) {
     if (pool.sets < kSetsPerPool && pool.buffers + buffers <= pool.buffer_capacity) return pool;
   }
   const std::uint32_t capacity = std::max(kBuffersPerPool, buffers);
-  const vk::DescriptorPoolSize size{.type = vk::DescriptorType::eStorageBuffer, .descriptorCount = capacity};
+  const std::array sizes = {
+      vk::DescriptorPoolSize{.type = descriptor_type(BufferKind::kStorage), .descriptorCount = capacity},
+      vk::DescriptorPoolSize{.type = descriptor_type(BufferKind::kTexels), .descriptorCount = capacity}};
   Pool made{.buffer_capacity = capacity};
-  made.handle = {device_->device,
-                 vk::DescriptorPoolCreateInfo{.maxSets = kSetsPerPool, .poolSizeCount = 1, .pPoolSizes = &size}};
+  made.handle = {
+      device_->device,
+      vk::DescriptorPoolCreateInfo{.maxSets = kSetsPerPool, .poolSizeCount = sizes.size(), .pPoolSizes = sizes.data()}};
   pools_.push_back(std::move(made));
   return pools_.back();
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -22,9 +23,13 @@ Expected<void> check_limits(const Device::State& device, const std::string& name
     return refuse(fmt::format("a work group of {} x {} x {} exceeds the {} invocations", x, y, z,
                               limits.maxComputeWorkGroupInvocations));
   }
-  if (layout.buffer_count > limits.maxPerStageDescriptorStorageBuffers) {
-    return refuse(
-        fmt::format("{} buffers exceed the {}", layout.buffer_count, limits.maxPerStageDescriptorStorageBuffers));
+  const auto storage_count = static_cast<std::uint32_t>(std::ranges::count(layout.buffers, BufferKind::kStorage));
+  if (storage_count > limits.maxPerStageDescriptorStorageBuffers) {
+    return refuse(fmt::format("{} buffers exceed the {}", storage_count, limits.maxPerStageDescriptorStorageBuffers));
+  }
+  if (layout.buffer_count - storage_count > limits.maxPerStageDescriptorSampledImages) {
+    return refuse(fmt::format("{} texel buffers exceed the {}", layout.buffer_count - storage_count,
+                              limits.maxPerStageDescriptorSampledImages));
   }
   if (layout.push_constant_size > limits.maxPushConstantsSize) {
     return refuse(fmt::format("{} bytes of push constants exceed the {}", layout.push_constant_size,
@@ -38,7 +43,7 @@ vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device, co
   bindings.reserve(layout.buffer_count);
   for (std::uint32_t i = 0; i < layout.buffer_count; ++i) {
     bindings.push_back({.binding = i,
-                        .descriptorType = vk::DescriptorType::eStorageBuffer,
+                        .descriptorType = descriptor_type(layout.buffers[i]),
                         .descriptorCount = 1,
                         .stageFlags = vk::ShaderStageFlagBits::eCompute});
   }

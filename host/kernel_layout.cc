@@ -35,26 +35,35 @@ std::span<const spvc_reflected_resource> resources_of(spvc_resources resources, 
   return {list, count};
 }
 
-std::uint32_t count_buffers(spvc_compiler compiler, spvc_resources resources, const KernelCode& code) {
+// The kinds of the buffers in the order of their bindings.
+std::vector<BufferKind> list_buffers(spvc_compiler compiler, spvc_resources resources, const KernelCode& code) {
   for (const auto type :
-       {SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, SPVC_RESOURCE_TYPE_STORAGE_IMAGE, SPVC_RESOURCE_TYPE_SAMPLED_IMAGE,
-        SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS, SPVC_RESOURCE_TYPE_SUBPASS_INPUT}) {
+       {SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, SPVC_RESOURCE_TYPE_STORAGE_IMAGE, SPVC_RESOURCE_TYPE_SEPARATE_IMAGE,
+        SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS, SPVC_RESOURCE_TYPE_SUBPASS_INPUT}) {
     if (!resources_of(resources, type).empty()) {
-      fail_check(__FILE__, __LINE__, "kernel binds storage buffers only", code.name, int{type});
+      fail_check(__FILE__, __LINE__, "kernel binds storage and texel buffers only", code.name, int{type});
     }
   }
-  std::vector<std::uint32_t> bindings;
-  for (const auto& buffer : resources_of(resources, SPVC_RESOURCE_TYPE_STORAGE_BUFFER)) {
-    QUORUM_CHECK_EQ(spvc_compiler_get_decoration(compiler, buffer.id, SpvDecorationDescriptorSet), 0U);
-    const spvc_type type = spvc_compiler_get_type_handle(compiler, buffer.type_id);
-    QUORUM_CHECK_EQ(spvc_type_get_num_array_dimensions(type), 0U);
-    bindings.push_back(spvc_compiler_get_decoration(compiler, buffer.id, SpvDecorationBinding));
-  }
+  std::vector<std::pair<std::uint32_t, BufferKind>> bindings;
+  const auto add = [&](spvc_resource_type resource_type, BufferKind kind) {
+    for (const auto& buffer : resources_of(resources, resource_type)) {
+      QUORUM_CHECK_EQ(spvc_compiler_get_decoration(compiler, buffer.id, SpvDecorationDescriptorSet), 0U);
+      const spvc_type type = spvc_compiler_get_type_handle(compiler, buffer.type_id);
+      QUORUM_CHECK_EQ(spvc_type_get_num_array_dimensions(type), 0U);
+      if (kind == BufferKind::kTexels && spvc_type_get_image_dimension(type) != SpvDimBuffer)
+        fail_check(__FILE__, __LINE__, "kernel samples no images", code.name, int{resource_type});
+      bindings.emplace_back(spvc_compiler_get_decoration(compiler, buffer.id, SpvDecorationBinding), kind);
+    }
+  };
+  add(SPVC_RESOURCE_TYPE_STORAGE_BUFFER, BufferKind::kStorage);
+  add(SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, BufferKind::kTexels);
   std::ranges::sort(bindings);
-  for (std::uint32_t i = 0; i < bindings.size(); ++i) {
-    if (bindings[i] != i) fail_check(__FILE__, __LINE__, "bindings are 0, 1, 2, ...", code.name, bindings[i]);
+  std::vector<BufferKind> kinds;
+  for (const auto& [binding, kind] : bindings) {
+    if (binding != kinds.size()) fail_check(__FILE__, __LINE__, "bindings are 0, 1, 2, ...", code.name, binding);
+    kinds.push_back(kind);
   }
-  return static_cast<std::uint32_t>(bindings.size());
+  return kinds;
 }
 
 std::uint32_t push_constant_size(spvc_compiler compiler, spvc_resources resources, const KernelCode& code) {
@@ -141,9 +150,10 @@ KernelLayout reflect_kernel(const KernelCode& code, const std::vector<SpecConsta
   spvc_resources resources = nullptr;
   must(spvc_compiler_create_shader_resources(compiler, &resources), code);
 
-  KernelLayout layout{.buffer_count = count_buffers(compiler, resources, code),
+  KernelLayout layout{.buffers = list_buffers(compiler, resources, code),
                       .push_constant_size = push_constant_size(compiler, resources, code),
                       .constants = declared_constants(compiler, code)};
+  layout.buffer_count = static_cast<std::uint32_t>(layout.buffers.size());
   set_values(layout.constants, constants, code);
   layout.group_size = group_size(compiler, layout.constants);
   return layout;

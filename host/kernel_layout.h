@@ -24,8 +24,13 @@ struct DeclaredConstant {
   std::uint32_t value = 0;  ///< the wanted value, or else the default
 };
 
+/// How a kernel sees a buffer: as words that it may read and write (`buffer`), or as texels of four words that it only
+/// reads (`usamplerBuffer`), which software Vulkan does several times faster.
+enum class BufferKind { kStorage, kTexels };
+
 struct KernelLayout {
-  std::uint32_t buffer_count = 0;                       ///< storage buffers: bindings 0 to buffer_count - 1 of set 0
+  std::uint32_t buffer_count = 0;                       ///< bindings 0 to buffer_count - 1 of set 0
+  std::vector<BufferKind> buffers;                      ///< the kind of each binding
   std::uint32_t push_constant_size = 0;                 ///< bytes
   std::array<std::uint32_t, 3> group_size = {1, 1, 1};  ///< invocations per work group
   std::vector<DeclaredConstant> constants;              ///< sorted by id

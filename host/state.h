@@ -104,6 +104,11 @@ struct Kernel::State {
   ~State() { device->settle(); }
 };
 
+/// What Vulkan calls a kind of buffer.
+constexpr vk::DescriptorType descriptor_type(BufferKind kind) {
+  return kind == BufferKind::kTexels ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
+}
+
 /// How long a submission may take before it counts as failed. Drivers reset a GPU that hangs long before.
 inline constexpr std::chrono::seconds kPatience{120};
 

@@ -130,6 +130,21 @@ TEST_F(CommandsTest, AViewIsAllThatAKernelTouches) {
   EXPECT_EQ(content<std::uint32_t>(cells), expected);
 }
 
+TEST_F(CommandsTest, TexelsAreReadInFours) {
+  const Kernel sum_texels = kernel("sum_texels");
+  std::vector<std::uint32_t> words(1000);
+  for (std::uint32_t i = 0; i < words.size(); ++i) words[i] = i * i;
+  const Buffer texels = buffer_of(words);
+  const Buffer sums = buffer_of(std::vector<std::uint32_t>(250, 0));
+  auto commands = Commands::create(device()).value();
+  commands.dispatch(sum_texels, {250}, 250U, {texels, sums});
+  expect_success(commands.submit());
+  std::vector<std::uint32_t> expected(250);
+  for (std::uint32_t i = 0; i < expected.size(); ++i)
+    for (std::uint32_t k = 0; k < 4; ++k) expected[i] += words[4 * i + k] + (k == 0 ? i : 0);
+  EXPECT_EQ(content<std::uint32_t>(sums), expected);
+}
+
 TEST_F(CommandsTest, AnEmptyBufferCanBeBound) {
   const Kernel saxpy = kernel("saxpy");
   const Buffer empty = Buffer::create(device(), 0).value();

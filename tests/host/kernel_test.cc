@@ -33,9 +33,16 @@ TEST(KernelLayout, BindingsPushConstantsAndGroupSizeComeFromTheKernel) {
   EXPECT_EQ(saxpy.push_constant_size, 8U);
   EXPECT_EQ(saxpy.group_size, (GroupSize{64, 1, 1}));
   EXPECT_TRUE(saxpy.constants.empty());
+  EXPECT_EQ(saxpy.buffers, (std::vector{BufferKind::kStorage, BufferKind::kStorage}));
   const KernelLayout echo = layout_of("echo_params");
   EXPECT_EQ(echo.buffer_count, 1U);
   EXPECT_EQ(echo.push_constant_size, 48U);
+}
+
+TEST(KernelLayout, TexelBuffersAreTakenFromTheKernel) {
+  const KernelLayout texels = layout_of("sum_texels");
+  EXPECT_EQ(texels.buffer_count, 2U);
+  EXPECT_EQ(texels.buffers, (std::vector{BufferKind::kTexels, BufferKind::kStorage}));
 }
 
 TEST(KernelLayout, ConstantsAreFoundByName) {
