@@ -3,171 +3,165 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/depth/reference_windows.h"
 #include "engine/depth/refine_depth.h"
 #include "engine/depth/vote_depth.h"
 #include "host/kernel_table.h"
+#include "host/sweep_texels.h"
 
 namespace quorum {
 namespace {
 
-constexpr std::uint32_t kStripRows = 16;         // pixels of a column that one invocation of sweep_depth takes
 constexpr std::int64_t kNccValues = 16LL << 20;  // room for a batch: 64 MiB, below any maxStorageBufferRange
-constexpr std::int64_t kMaxSlots = 1024;  // with 32 neighbors: 32,768 rounds of vote_depth's loops. lavapipe stops the
-                                          // loops of an invocation after 65,535 rounds, without a word
+constexpr std::int64_t kMaxItems = 65535;        // of a batch: a work group each
+constexpr std::int64_t kMaxPlanes =
+    1024;  // of a block: with 32 neighbors 32,768 rounds of vote_depth's loops. lavapipe
+           // stops the loops of an invocation after 65,535 rounds, without a word
 constexpr std::int64_t kLeastWindows = 1LL << 14;
 constexpr std::int64_t kStartWindows = 1LL << 18;
 
-/// A batch of a pass: rows of the view, and slots of planes.
-struct Batch {
-  int row_begin;
-  int row_count;
-  int first_slot;
-  int slot_count;
-};
+int block_side(SweepForm form) { return form == SweepForm::kLanes ? kLaneBlockSide : kGroupBlockSide; }
 
-SweepParams make_sweep_params(const SweepTask& task, std::size_t neighbor, const Batch& batch, int stride) {
+SweepParams make_sweep_params(const SweepTask& task, SweepForm form, std::size_t neighbor, int item_count) {
   const int width = task.reference->width;
   const PaddedImage& image = *task.neighbors[neighbor];
+  const int side = block_side(form);
   return {.warp = task.warps[neighbor],
           .width = width,
           .height = task.reference->height,
           .neighbor_width = image.width,
           .neighbor_height = image.height,
-          .row_begin = batch.row_begin,
-          .row_count = batch.row_count,
-          .first_plane = batch.first_slot * stride,
-          .plane_stride = stride,
-          .plane_count = batch.slot_count,
-          .ncc_offset = static_cast<int>(neighbor) * batch.slot_count * batch.row_count * width};
+          .reference_stride = reference_texels_stride(width, task.options.window),
+          .window_stride = whole_blocks(width, side),
+          .item_count = item_count,
+          .ncc_offset = static_cast<int>(neighbor) * item_count * (side * side / 4)};
 }
 
-VoteParams make_vote_params(const SweepTask& task, const Batch& batch, int stride, bool relative) {
+VoteParams make_vote_params(const SweepTask& task, SweepForm form, const SweepBatch& batch) {
   const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
   return {.width = task.reference->width,
-          .row_begin = batch.row_begin,
-          .row_count = batch.row_count,
-          .first_plane = batch.first_slot * stride,
-          .plane_stride = stride,
-          .plane_count = batch.slot_count,
+          .height = task.reference->height,
+          .block_side = block_side(form),
+          .block_count = static_cast<int>(batch.blocks.size()),
+          .item_count = static_cast<int>(batch.items.size()),
           .neighbor_count = task.neighbor_count(),
           .min_votes = rule.min_votes,
           .threshold = rule.threshold,
-          .confidence_scale = rule.confidence_scale,
-          .relative_planes = relative ? 1 : 0};
-}
-
-/// First and last slot that some pixel of the rows tests; first > last if none does.
-std::pair<int, int> slots_of_rows(const Grid<PlaneRange>& ranges, int row_begin, int row_count, int stride,
-                                  bool relative) {
-  int first = 1 << 30;
-  int last = -1;
-  for (int y = row_begin; y < row_begin + row_count; ++y) {
-    for (int x = 0; x < ranges.width; ++x) {
-      const PlaneRange& range = ranges.at(x, y);
-      if (range.first > range.last) continue;
-      first = std::min(first, relative ? 0 : static_cast<int>(range.first) / stride);
-      last = std::max(last, static_cast<int>(relative ? range.last - range.first : range.last) / stride);
-    }
-  }
-  return {first, last};
+          .confidence_scale = rule.confidence_scale};
 }
 
 }  // namespace
 
-Expected<DepthStage> DepthStage::create(const Device& device, Commands& commands) {
+Expected<DepthStage> DepthStage::create(const Device& device, Commands& commands, std::optional<SweepForm> form) {
   auto vote_depth = Kernel::create(device, find_kernel("vote_depth"));
   if (!vote_depth) return std::unexpected(vote_depth.error());
-  return DepthStage(device, commands, std::move(*vote_depth));
+  const bool software = device.info().kind == DeviceKind::kSoftware && device.info().has_float64;
+  return DepthStage(device, commands, form.value_or(software ? SweepForm::kLanes : SweepForm::kGroups),
+                    std::move(*vote_depth));
 }
 
-DepthStage::DepthStage(const Device& device, Commands& commands, Kernel vote_depth)
+DepthStage::DepthStage(const Device& device, Commands& commands, SweepForm form, Kernel vote_depth)
     : device_(&device),
       commands_(&commands),
+      form_(form),
       vote_depth_(std::move(vote_depth)),
-      sweep_batch_(kStartWindows, kLeastWindows, kNccValues),
-      refine_batch_(kStartWindows, kLeastWindows, kNccValues) {}
+      batch_size_(kStartWindows, kLeastWindows, kNccValues) {}
 
-Expected<void> DepthStage::prepare_kernels(const SweepOptions& options) {
-  if (kernels_ && kernels_->window == options.window && kernels_->model == options.window_model) return {};
-  const auto window = static_cast<std::uint32_t>(options.window);
-  const auto shift = static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(options.window));
-  const std::uint32_t axis = options.window_model == WindowModel::kAxis ? 1 : 0;
-  auto sweep_depth =
-      Kernel::create(*device_, find_kernel("sweep_depth"),
-                     {{"kWindow", window}, {"kAxisModel", axis}, {"kShift", shift}, {"kStripRows", kStripRows}});
-  if (!sweep_depth) return std::unexpected(sweep_depth.error());
-  auto refine_depth = Kernel::create(*device_, find_kernel("refine_depth"),
-                                     {{"kWindow", window}, {"kAxisModel", axis}, {"kShift", shift}});
-  if (!refine_depth) return std::unexpected(refine_depth.error());
-  kernels_.emplace(Kernels{options.window, options.window_model, std::move(*sweep_depth), std::move(*refine_depth)});
+SweepForm DepthStage::form_of(const SweepTask& task) const {
+  if (task.options.window_model == WindowModel::kAxis) return SweepForm::kGroups;
+  const auto fits = [&](const auto& image) { return quads_size(*image) <= device_->info().max_storage_buffer_range; };
+  return fits(task.reference) && std::ranges::all_of(task.neighbors, fits) ? form_ : SweepForm::kGroups;
+}
+
+Expected<void> DepthStage::prepare_kernel(const SweepTask& task) {
+  const SweepOptions& options = task.options;
+  const SweepForm form = form_of(task);
+  if (sweep_ && sweep_->form == form && sweep_->window == options.window && sweep_->model == options.window_model)
+    return {};
+  std::vector<SpecConstant> constants = {
+      {"kWindow", static_cast<std::uint32_t>(options.window)},
+      {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(options.window))}};
+  if (form == SweepForm::kGroups)
+    constants.push_back({"kAxisModel", options.window_model == WindowModel::kAxis ? 1U : 0U});
+  auto kernel =
+      Kernel::create(*device_, find_kernel(form == SweepForm::kLanes ? "sweep_depth_lanes" : "sweep_depth"), constants);
+  if (!kernel) return std::unexpected(kernel.error());
+  sweep_.emplace(Sweep{form, options.window, options.window_model, std::move(*kernel)});
   return {};
 }
 
 Expected<DepthStage::Inputs> DepthStage::upload(const SweepTask& task) const {
-  auto reference = Buffer::of(*device_, task.reference->pixels);
+  const bool lanes = sweep_->form == SweepForm::kLanes;
+  const int window = task.options.window;
+  auto reference = lanes ? Buffer::of(*device_, make_reference_texels(*task.reference, window))
+                         : Buffer::of(*device_, task.reference->pixels);
   if (!reference) return std::unexpected(reference.error());
+  auto windows = Buffer::of(
+      *device_, in_whole_blocks(make_reference_windows(*task.reference, window), block_side(sweep_->form)).values);
+  if (!windows) return std::unexpected(windows.error());
   std::vector<Buffer> neighbors;
   for (const auto& image : task.neighbors) {
-    auto neighbor = Buffer::of(*device_, image->pixels);
+    auto neighbor = lanes ? Buffer::of(*device_, make_quads(*image)) : Buffer::of(*device_, image->pixels);
     if (!neighbor) return std::unexpected(neighbor.error());
     neighbors.push_back(std::move(*neighbor));
   }
   auto planes = Buffer::of(*device_, task.planes.inverse_depth);
   if (!planes) return std::unexpected(planes.error());
-  const auto one_row = static_cast<std::int64_t>(task.neighbor_count()) * task.reference->width;
-  auto ncc = Buffer::create(*device_, static_cast<std::uint64_t>(std::max(kNccValues, one_row)) * sizeof(float));
+  auto ncc = Buffer::create(*device_, static_cast<std::uint64_t>(kNccValues) * sizeof(float));
   if (!ncc) return std::unexpected(ncc.error());
-  return Inputs{std::move(*reference), std::move(neighbors), std::move(*planes), std::move(*ncc)};
+  return Inputs{std::move(*reference), std::move(*windows), std::move(neighbors), std::move(*planes), std::move(*ncc)};
+}
+
+Expected<void> DepthStage::run_batch(const SweepTask& task, const Inputs& inputs, const SweepBatch& batch,
+                                     const Buffer& ranges, const Buffer& votes) {
+  const SweepForm form = sweep_->form;
+  const std::int64_t windows_of_item = std::int64_t{block_side(form)} * block_side(form);
+  const auto item_count = static_cast<std::int64_t>(batch.items.size());
+  auto blocks = Buffer::of(*device_, batch.blocks);
+  if (!blocks) return std::unexpected(blocks.error());
+  auto items = Buffer::of(*device_, batch.items);
+  if (!items) return std::unexpected(items.error());
+  commands_->region("sweep_depth");
+  for (std::size_t neighbor = 0; neighbor < inputs.neighbors.size(); ++neighbor)
+    commands_->dispatch(
+        sweep_->kernel, {form == SweepForm::kLanes ? item_count : item_count * windows_of_item},
+        make_sweep_params(task, form, neighbor, static_cast<int>(item_count)),
+        {*items, inputs.planes, inputs.reference, inputs.windows, inputs.neighbors[neighbor], inputs.ncc});
+  commands_->region("vote_depth");
+  commands_->dispatch(vote_depth_, {static_cast<std::int64_t>(batch.blocks.size()) * windows_of_item / 4},
+                      make_vote_params(task, form, batch), {*blocks, *items, ranges, inputs.ncc, votes});
+  return commands_->submit();
 }
 
 Expected<Grid<PixelVote>> DepthStage::run_pass(const SweepTask& task, const Inputs& inputs,
-                                               const Grid<PlaneRange>& ranges, Pass pass) {
+                                               const Grid<PlaneRange>& ranges, int stride) {
   Grid<PixelVote> votes(ranges.width, ranges.height, kNoVote);
   auto range_buffer = Buffer::of(*device_, ranges.values);
   if (!range_buffer) return std::unexpected(range_buffer.error());
   auto vote_buffer = Buffer::of(*device_, votes.values);
   if (!vote_buffer) return std::unexpected(vote_buffer.error());
-
-  const bool sweep = pass == Pass::kSweep;
-  const int stride = sweep ? task.planes.refinement : 1;
-  const Kernel& kernel = sweep ? kernels_->sweep_depth : kernels_->refine_depth;
-  BatchSize& size = sweep ? sweep_batch_ : refine_batch_;
-  const std::int64_t row_windows = static_cast<std::int64_t>(ranges.width) * task.neighbor_count();
-  for (int row = 0; row < ranges.height;) {
-    const int rows = static_cast<int>(std::clamp<std::int64_t>(size.items() / row_windows, 1, ranges.height - row));
-    const auto [first_slot, last_slot] = slots_of_rows(ranges, row, rows, stride, !sweep);
-    for (int slot = first_slot; slot <= last_slot;) {
-      const std::int64_t windows_of_slot = row_windows * rows;
-      const Batch batch{
-          row, rows, slot,
-          static_cast<int>(std::clamp<std::int64_t>(std::min(size.items(), kNccValues) / windows_of_slot, 1,
-                                                    std::min<std::int64_t>(last_slot - slot + 1, kMaxSlots)))};
-      const std::int64_t strips = sweep ? (rows + kStripRows - 1) / kStripRows : rows;
-      commands_->region(sweep ? "sweep_depth" : "refine_depth");
-      for (std::size_t neighbor = 0; neighbor < inputs.neighbors.size(); ++neighbor)
-        commands_->dispatch(kernel, {ranges.width, strips, batch.slot_count},
-                            make_sweep_params(task, neighbor, batch, stride),
-                            {inputs.reference, inputs.neighbors[neighbor], inputs.planes, *range_buffer, inputs.ncc});
-      commands_->region("vote_depth");
-      commands_->dispatch(vote_depth_, {ranges.width, rows}, make_vote_params(task, batch, stride, !sweep),
-                          {*range_buffer, inputs.ncc, *vote_buffer});
-      if (auto done = commands_->submit(); !done) return std::unexpected(done.error());
-      size.measured(windows_of_slot * batch.slot_count, commands_->last_submission_seconds());
-      slot += batch.slot_count;
-    }
-    row += rows;
+  const int side = block_side(sweep_->form);
+  const std::int64_t item_windows = std::int64_t{side} * side * task.neighbor_count();
+  SweepBatches batches(ranges, side, stride);
+  while (true) {
+    const std::int64_t most = std::clamp<std::int64_t>(batch_size_.items() / item_windows, 1, kMaxItems);
+    const SweepBatch batch = batches.next(most, kMaxPlanes);
+    if (batch.items.empty()) break;
+    if (auto done = run_batch(task, inputs, batch, *range_buffer, *vote_buffer); !done)
+      return std::unexpected(done.error());
+    batch_size_.measured(static_cast<std::int64_t>(batch.items.size()) * item_windows,
+                         commands_->last_submission_seconds());
   }
   if (auto read = vote_buffer->download(votes.values); !read) return std::unexpected(read.error());
   return votes;
 }
 
 Expected<DepthMap> DepthStage::run(const SweepTask& task) {
-  if (auto ready = prepare_kernels(task.options); !ready) return std::unexpected(ready.error());
+  if (auto ready = prepare_kernel(task); !ready) return std::unexpected(ready.error());
   auto inputs = upload(task);
   if (!inputs) return std::unexpected(inputs.error());
-  auto votes = run_pass(task, *inputs, task.ranges, Pass::kSweep);
-  if (votes && task.planes.refinement > 1)
-    votes = run_pass(task, *inputs, refine_ranges(*votes, task.planes), Pass::kRefine);
+  auto votes = run_pass(task, *inputs, task.ranges, task.planes.refinement);
+  if (votes && task.planes.refinement > 1) votes = run_pass(task, *inputs, refine_ranges(*votes, task.planes), 1);
   if (!votes) return std::unexpected(votes.error());
   return depth_map_from_votes(*votes, task.planes);
 }

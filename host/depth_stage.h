@@ -1,5 +1,5 @@
-// Depth maps on a Vulkan device: sweep_depth and vote_depth over all planes, then refine_depth and vote_depth around
-// each pixel's best one.
+// Depth maps on a Vulkan device: sweep_depth and vote_depth over all planes, then again over the planes around each
+// pixel's best one. Between the two passes only the planes differ.
 #pragma once
 
 #include <optional>
@@ -10,46 +10,56 @@
 #include "host/buffer.h"
 #include "host/commands.h"
 #include "host/kernel.h"
+#include "host/sweep_batch.h"
 
 namespace quorum {
 
+/// The kernel that sweeps. All give the same bytes.
+enum class SweepForm {
+  kGroups,  ///< sweep_depth: a work group per block, samples in shared memory; for GPUs
+  kLanes,   ///< sweep_depth_lanes: an invocation per block, samples as texels; for software Vulkan
+};
+
 class DepthStage {
  public:
-  /// Fails (kDevice, kMemory) if the device does.
-  static Expected<DepthStage> create(const Device& device, Commands& commands);
+  /// form: empty = the one for this kind of device. Fails (kDevice, kMemory) if the device does.
+  static Expected<DepthStage> create(const Device& device, Commands& commands, std::optional<SweepForm> form = {});
 
   /// The depth map of one view. Fails (kDevice, kMemory) if the device does.
   Expected<DepthMap> run(const SweepTask& task);
 
  private:
-  /// The kernels for one window size and model.
-  struct Kernels {
+  /// The kernel for one window size and model.
+  struct Sweep {
+    SweepForm form;
     int window;
     WindowModel model;
-    Kernel sweep_depth;
-    Kernel refine_depth;
+    Kernel kernel;
   };
   /// Device copies of a task's inputs, and the room for what the kernels pass on.
   struct Inputs {
     Buffer reference;
+    Buffer windows;
     std::vector<Buffer> neighbors;
     Buffer planes;
     Buffer ncc;
   };
-  enum class Pass { kSweep, kRefine };
 
-  DepthStage(const Device& device, Commands& commands, Kernel vote_depth);
-  Expected<void> prepare_kernels(const SweepOptions& options);
+  DepthStage(const Device& device, Commands& commands, SweepForm form, Kernel vote_depth);
+  [[nodiscard]] SweepForm form_of(const SweepTask& task) const;
+  Expected<void> prepare_kernel(const SweepTask& task);
   Expected<Inputs> upload(const SweepTask& task) const;
   Expected<Grid<PixelVote>> run_pass(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges,
-                                     Pass pass);
+                                     int stride);
+  Expected<void> run_batch(const SweepTask& task, const Inputs& inputs, const SweepBatch& batch, const Buffer& ranges,
+                           const Buffer& votes);
 
   const Device* device_;
   Commands* commands_;
+  SweepForm form_;
   Kernel vote_depth_;
-  std::optional<Kernels> kernels_;
-  BatchSize sweep_batch_;  // windows per submission
-  BatchSize refine_batch_;
+  std::optional<Sweep> sweep_;
+  BatchSize batch_size_;  // windows per submission
 };
 
 }  // namespace quorum

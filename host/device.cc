@@ -36,7 +36,10 @@ void open_queue(Device::State& state) {
   const float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue{
       .queueFamilyIndex = state.queue_family, .queueCount = 1, .pQueuePriorities = &priority};
-  state.device = {state.physical, vk::DeviceCreateInfo{.queueCreateInfoCount = 1, .pQueueCreateInfos = &queue}};
+  const vk::PhysicalDeviceFeatures features{.shaderFloat64 = state.info.has_float64 ? VK_TRUE : VK_FALSE};
+  state.device = {
+      state.physical,
+      vk::DeviceCreateInfo{.queueCreateInfoCount = 1, .pQueueCreateInfos = &queue, .pEnabledFeatures = &features}};
   state.queue = {state.device, state.queue_family, 0};
 }
 

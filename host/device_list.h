@@ -31,6 +31,7 @@ struct DeviceInfo {
   std::uint64_t max_allocation = 0;              ///< largest single allocation
   std::uint32_t subgroup_size = 0;               ///< invocations that run in lockstep
   std::uint32_t max_work_group_invocations = 0;  ///< invocations in a work group
+  bool has_float64 = false;                      ///< kernels may compute in double
   std::uint32_t shared_memory_bytes = 0;         ///< shared memory of a work group
   /// Iterations of all loops of one invocation together, after which the driver leaves every loop without a word: 65535
   /// on llvmpipe (measured, Mesa 22.3), unbounded elsewhere. Loops that the compiler unrolls do not count.

@@ -155,6 +155,7 @@ DeviceInfo describe_device(const vk::raii::PhysicalDevice& physical, int index) 
   info.largest_device_heap = largest_device_heap(physical);
   info.max_work_group_invocations = properties.limits.maxComputeWorkGroupInvocations;
   info.shared_memory_bytes = properties.limits.maxComputeSharedMemorySize;
+  info.has_float64 = physical.getFeatures().shaderFloat64 == VK_TRUE;
   if (properties.apiVersion < kApiVersion) {
     info.defect = fmt::format("it has Vulkan {}, and 1.1 is needed: update its driver", info.api_version);
     return info;

@@ -6,12 +6,12 @@
 
 namespace quorum {
 
-Expected<std::unique_ptr<VulkanBackend>> VulkanBackend::create(const Device& device) {
+Expected<std::unique_ptr<VulkanBackend>> VulkanBackend::create(const Device& device, std::optional<SweepForm> form) {
   auto kept_device = std::make_unique<Device>(device);  // the stages point to it, so it must not move
   auto commands = Commands::create(*kept_device);
   if (!commands) return std::unexpected(commands.error());
   auto kept_commands = std::make_unique<Commands>(std::move(*commands));
-  auto depth = DepthStage::create(*kept_device, *kept_commands);
+  auto depth = DepthStage::create(*kept_device, *kept_commands, form);
   if (!depth) return std::unexpected(depth.error());
   auto volume = VolumeStage::create(*kept_device, *kept_commands);
   if (!volume) return std::unexpected(volume.error());

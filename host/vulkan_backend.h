@@ -11,8 +11,9 @@ namespace quorum {
 
 class VulkanBackend : public Backend {
  public:
-  /// Fails (kDevice, kMemory) if the device does. The backend keeps the device open.
-  static Expected<std::unique_ptr<VulkanBackend>> create(const Device& device);
+  /// form: of the sweep; empty = the one for this kind of device. Fails (kDevice, kMemory) if the device does. The
+  /// backend keeps the device open.
+  static Expected<std::unique_ptr<VulkanBackend>> create(const Device& device, std::optional<SweepForm> form = {});
 
   [[nodiscard]] std::string description() const override;
   Expected<DepthMap> sweep_depth(const SweepTask& task) override { return depth_.run(task); }

@@ -23,6 +23,10 @@ const int kLargestFullPrecisionWindow = 13;
 // A neighbor that would see a point at less than this share of the reference depth does not see it.
 const float kMinDepthRatio = 0.0009765625f;  // 1/1024
 
+// Sides of the square blocks of pixels that the sweep takes as a whole, by form of the kernel.
+const int kGroupBlockSide = 16;  // sweep_depth: a work group per block
+const int kLaneBlockSide = 8;    // sweep_depth_lanes: an invocation per block
+
 // Voxels.
 const int kBlockSide = 8;           // voxels along an edge of a block
 const int kBlockVoxels = 512;       // kBlockSide^3
@@ -67,37 +71,58 @@ struct PixelVote {
 };
 QUORUM_SIZE(PixelVote, 12);
 
-// sweep_depth and refine_depth: NCC of each pixel against one neighbor on a batch of planes.
+// A block of the reference view that is swept on one plane, all its windows together. x, y: its first pixel, a multiple of
+// the block's side, which the kernel knows.
+struct SweepItem {
+  int x;
+  int y;
+  int plane;
+};
+QUORUM_SIZE(SweepItem, 12);
+
+// A block with its items of a batch, which stand together in the order of their planes.
+struct SweepBlock {
+  int x;
+  int y;
+  int item_begin;
+  int item_count;
+};
+QUORUM_SIZE(SweepBlock, 16);
+
+// What NCC needs of a window of the reference view. inverse_deviation: 1 / sqrt(n^2 variance).
+struct ReferenceWindow {
+  int sum[3];  // of the samples of each channel
+  float inverse_deviation;
+};
+QUORUM_SIZE(ReferenceWindow, 16);
+
+// sweep_depth and sweep_depth_lanes: NCC of all windows of a batch of items against one neighbor.
 struct SweepParams {
   PlaneWarp warp;
-  int width;            // reference view, pixels
-  int height;           // reference view, pixels
-  int neighbor_width;   // pixels
-  int neighbor_height;  // pixels
-  int row_begin;        // first reference row of this batch
-  int row_count;        // rows of this batch
-  int first_plane;      // sweep_depth: plane of slot 0. refine_depth: plane of slot 0 relative to the pixel's range
-  int plane_stride;     // planes between slots
-  int plane_count;      // slots of this batch
-  int ncc_offset;       // where this neighbor's values start in the ncc buffer, floats
+  int width;             // reference view, pixels
+  int height;            // reference view, pixels
+  int neighbor_width;    // pixels
+  int neighbor_height;   // pixels
+  int reference_stride;  // sweep_depth_lanes: texels of four pixels in a row of the reference
+  int window_stride;     // reference windows in a row
+  int item_count;        // of this batch
+  int ncc_offset;        // where this neighbor's values start in the ncc buffer, in fours
 };
-QUORUM_SIZE(SweepParams, 88);
+QUORUM_SIZE(SweepParams, 80);
 
 // vote_depth: from the NCC values of a batch to the best plane of each pixel so far.
 struct VoteParams {
   int width;
-  int row_begin;
-  int row_count;
-  int first_plane;
-  int plane_stride;
-  int plane_count;
+  int height;
+  int block_side;   // pixels, a multiple of 4
+  int block_count;  // of this batch
+  int item_count;   // of this batch
   int neighbor_count;
   int min_votes;
   float threshold;
   float confidence_scale;  // 1 / (neighbor count * (1 - threshold))
-  int relative_planes;     // 1: planes count from the start of the pixel's range (after refine_depth)
 };
-QUORUM_SIZE(VoteParams, 44);
+QUORUM_SIZE(VoteParams, 36);
 
 // range_surface: the triangles of one depth map.
 struct RangeSurfaceParams {

@@ -1,52 +1,116 @@
-// NCC of every window of a batch of rows and planes against one neighbor (the paper, section 2.1). An invocation takes a
-// strip of kStripRows pixels in one column on one plane and carries the sums of the window down it: a row is added below
-// and one taken off above, without barriers or arrays, which is what software Vulkan does fast.
-// Twin: engine/depth/sweep_depth.cc.
+// NCC of the windows of a batch of items against one neighbor (the paper, section 2.1), in the form for GPUs: a work
+// group sweeps one item, a block of the view on one plane. Each sample is warped once into shared memory; windows are
+// summed along rows, then down columns. Windows of the axis model share no samples and are summed one by one.
+// Twin: window_ncc in engine/depth/sweep_depth.cc. The form for software Vulkan: sweep_depth_lanes.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "layout.h"
-#include "lib/window.glsl"
+#include "lib/project.glsl"
+#include "lib/sample_bilinear.glsl"
+#include "lib/ncc_from_sums.glsl"
 
-layout(local_size_x_id = 3, local_size_y = 1, local_size_z = 1) in;
-layout(constant_id = 3) const uint kGroupSize = 64;
-layout(constant_id = 4) const int kStripRows = 16;
+layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;  // kGroupBlockSide^2
+layout(constant_id = 0) const int kWindow = 5;
+layout(constant_id = 1) const int kAxisModel = 0;  // 1: the paper's axis-aligned windows; 0: windows on the plane
+layout(constant_id = 2) const int kShift = 12;     // kSampleShift, one more for the largest windows
 
-bool tests_plane(int x, int y, uint plane) {
-  PlaneRange range = ranges[y * p.width + x];
-  return plane >= range.first && plane <= range.last;
+layout(push_constant) uniform Push { SweepParams p; };
+layout(std430, binding = 0) readonly buffer Items { SweepItem items[]; };
+layout(std430, binding = 1) readonly buffer Planes { float inverse_depths[]; };
+layout(std430, binding = 2) readonly buffer Reference { uint reference_pixels[]; };
+layout(std430, binding = 3) readonly buffer Windows { ReferenceWindow reference_windows[]; };
+layout(std430, binding = 4) readonly buffer Neighbor { uint neighbor_pixels[]; };
+layout(std430, binding = 5) writeonly buffer Ncc { float ncc_values[]; };
+
+const int kRadius = kWindow / 2;
+const int kSide = kGroupBlockSide;
+const int kGroupSize = kSide * kSide;
+const int kSamples = kSide + kWindow - 1;  // along a side
+
+// Of a row of samples: each sample, then sums along the row, which take a column less for each further pixel of a window.
+shared ivec3 row_b[kSamples * kSamples];
+shared ivec2 row_products[kSamples * kSamples];  // b * b, a * b
+shared ivec3 sum_b[kSamples * kSide];
+shared ivec2 sum_products[kSamples * kSide];
+shared bool row_inside[kSamples * kSamples];
+
+// Clamped: blocks reach over the image, where no pixel asks for a window.
+ivec3 reference_sample(int x, int y) {
+  int column = clamp(x, 0, p.width - 1);
+  int row = clamp(y, 0, p.height - 1);
+  return sample_pixel(reference_pixels[row * (p.width + 1) + column], kShift);
+}
+
+ivec3 neighbor_sample(int u, int v) {
+  int stride = p.neighbor_width + 1;
+  int texel = (v >> kPositionBits) * stride + (u >> kPositionBits);
+  return sample_bilinear(neighbor_pixels[texel], neighbor_pixels[texel + 1], neighbor_pixels[texel + stride],
+                         neighbor_pixels[texel + stride + 1], u, v, kShift);
+}
+
+float axis_window_ncc(int x, int y, float inverse_depth, ReferenceWindow window) {
+  Projection center = project(p.warp, x, y, inverse_depth, p.neighbor_width, p.neighbor_height);
+  int reach = kRadius * kPositionScale;
+  bool inside = center.inside && center.u >= reach && center.v >= reach &&
+                center.u + reach <= (p.neighbor_width - 1) * kPositionScale &&
+                center.v + reach <= (p.neighbor_height - 1) * kPositionScale;
+  if (!inside) return kNoNcc;
+  WindowSums sums = no_sums();
+  for (int dy = -kRadius; dy <= kRadius; ++dy)
+    for (int dx = -kRadius; dx <= kRadius; ++dx)
+      add_sample(sums, reference_sample(x + dx, y + dy),
+                 neighbor_sample(center.u + dx * kPositionScale, center.v + dy * kPositionScale));
+  return ncc_from_sums(window, sums, kWindow * kWindow);
 }
 
 void main() {
-  int x = int(gl_GlobalInvocationID.x);
-  int slot = int(gl_GlobalInvocationID.z);
-  int row = int(gl_GlobalInvocationID.y) * kStripRows;
-  if (x >= p.width || row >= p.row_count || slot >= p.plane_count) return;
-  int row_end = min(row + kStripRows, p.row_count);
-  uint plane = uint(p.first_plane + slot * p.plane_stride);
+  int thread = int(gl_LocalInvocationID.x);
+  int item_index = int(gl_WorkGroupID.x);
+  SweepItem item = items[item_index];
+  float inverse_depth = inverse_depths[item.plane];
+  int column = thread % kSide;
+  int row = thread / kSide;
+  ReferenceWindow window = reference_windows[(item.y + row) * p.window_stride + item.x + column];
+  int output_index = 4 * p.ncc_offset + item_index * kGroupSize + thread;
+  if (kAxisModel != 0) {
+    ncc_values[output_index] = axis_window_ncc(item.x + column, item.y + row, inverse_depth, window);
+    return;
+  }
 
-  int first = row_end;
-  int last = row - 1;
-  for (int i = row; i < row_end; ++i) {
-    if (!tests_plane(x, p.row_begin + i, plane)) continue;
-    first = min(first, i);
-    last = i;
+  for (int i = thread; i < kSamples * kSamples; i += kGroupSize) {
+    int x = item.x - kRadius + i % kSamples;
+    int y = item.y - kRadius + i / kSamples;
+    Projection at = project(p.warp, x, y, inverse_depth, p.neighbor_width, p.neighbor_height);
+    ivec3 a = reference_sample(x, y);
+    ivec3 b = neighbor_sample(at.u, at.v);
+    row_b[i] = b;
+    row_products[i] = ivec2(b.x * b.x + b.y * b.y + b.z * b.z, a.x * b.x + a.y * b.y + a.z * b.z);
+    row_inside[i] = at.inside;
   }
-  float inverse_depth = inverse_depths[plane];
+  barrier();
+  for (int i = thread; i < kSamples * kSide; i += kGroupSize) {
+    int first = i / kSide * kSamples + i % kSide;
+    ivec3 b = ivec3(0);
+    ivec2 products = ivec2(0);
+    for (int k = 0; k < kWindow; ++k) {
+      b += row_b[first + k];
+      products += row_products[first + k];
+    }
+    sum_b[i] = b;
+    sum_products[i] = products;
+  }
+  barrier();
   WindowSums sums = no_sums();
-  for (int i = first; i <= last; ++i) {
-    int y = p.row_begin + i;
-    int output_index = p.ncc_offset + (slot * p.row_count + i) * p.width + x;
-    if (kAxisModel != 0) {
-      ncc_values[output_index] = axis_window_ncc(x, y, inverse_depth);
-      continue;
-    }
-    if (i == first) {
-      for (int dy = -kRadius; dy <= kRadius; ++dy) add_row(sums, x, y + dy, inverse_depth, 1);
-    } else {
-      add_row(sums, x, y + kRadius, inverse_depth, 1);
-      add_row(sums, x, y - kRadius - 1, inverse_depth, -1);
-    }
-    ncc_values[output_index] =
-        sees_window(x, y, inverse_depth) ? ncc_from_sums(sums, kWindow * kWindow) : kNoNcc;
+  for (int k = 0; k < kWindow; ++k) {
+    int i = (row + k) * kSide + column;
+    sums.b += sum_b[i];
+    sums.bb += sum_products[i].x;
+    sums.ab += sum_products[i].y;
   }
+  // A plane maps the window to a convex quadrilateral, so the corners decide for all of it.
+  int corner = row * kSamples + column;
+  bool sees = row_inside[corner] && row_inside[corner + kWindow - 1] &&
+              row_inside[corner + (kWindow - 1) * kSamples] &&
+              row_inside[corner + (kWindow - 1) * (kSamples + 1)];
+  ncc_values[output_index] = sees ? ncc_from_sums(window, sums, kWindow * kWindow) : kNoNcc;
 }

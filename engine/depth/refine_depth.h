@@ -1,5 +1,5 @@
 // The second pass of the paper (section 4.1): the planes at a fraction of the step around each pixel's best plane.
-// Twin of shaders/refine_depth.comp, which tests these ranges pixel by pixel.
+// All devices sweep these ranges as they do those of the first pass.
 #pragma once
 
 #include "engine/depth/sweep_task.h"

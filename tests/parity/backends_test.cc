@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <optional>
 
 #include "engine/pipeline/cpu_backend.h"
 #include "host/vulkan_backend.h"
@@ -22,7 +24,9 @@ struct Input {
 
 class BackendsParity : public ParityTest {
  protected:
-  static std::unique_ptr<VulkanBackend> vulkan() { return VulkanBackend::create(device()).value(); }
+  static std::unique_ptr<VulkanBackend> vulkan(std::optional<SweepForm> form = {}) {
+    return VulkanBackend::create(device(), form).value();
+  }
 
   static Input make_input(int width, int height, unsigned seed) {
     Input input{make_sphere_scene(4, width, height, true, seed), {}, {}};
@@ -53,8 +57,8 @@ class BackendsParity : public ParityTest {
   }
 };
 
-TEST_F(BackendsParity, DepthMapsAreEqual) {
-  const auto gpu = vulkan();
+TEST_F(BackendsParity, DepthMapsAreEqualInEveryForm) {
+  const std::array backends = {vulkan(SweepForm::kGroups), vulkan(SweepForm::kLanes), vulkan()};
   CpuBackend cpu;
   for (const auto& [window, model, seed] : {std::tuple{5, WindowModel::kPlane, 1U},
                                             {15, WindowModel::kPlane, 2U},
@@ -66,16 +70,18 @@ TEST_F(BackendsParity, DepthMapsAreEqual) {
     options.window_model = model;
     options.refinement = seed == 4U ? 1 : 10;
     const SweepTask task = make_sphere_task(sphere, 2, options);
-    const DepthMap on_device = gpu->sweep_depth(task).value();
     const DepthMap twin = cpu.sweep_depth(task).value();
-    const std::string what = fmt::format("window {} seed {}", window, seed);
-    ASSERT_TRUE(same_words(on_device.depth.values, twin.depth.values, 97, what + " depth"));
-    ASSERT_TRUE(same_words(on_device.correlation.values, twin.correlation.values, 97, what + " correlation"));
-    ASSERT_TRUE(same_words(on_device.confidence.values, twin.confidence.values, 97, what + " confidence"));
+    for (std::size_t i = 0; i < backends.size(); ++i) {
+      const DepthMap on_device = backends[i]->sweep_depth(task).value();
+      const std::string what = fmt::format("window {} seed {} form {}", window, seed, i);
+      ASSERT_TRUE(same_words(on_device.depth.values, twin.depth.values, 97, what + " depth"));
+      ASSERT_TRUE(same_words(on_device.correlation.values, twin.correlation.values, 97, what + " correlation"));
+      ASSERT_TRUE(same_words(on_device.confidence.values, twin.confidence.values, 97, what + " confidence"));
+    }
     const auto found = std::ranges::count_if(twin.depth.values, [](float depth) { return depth > 0; });
-    expect_share(found, 97 * 71, 0.1, 0.8, what);
+    expect_share(found, 97 * 71, 0.1, 0.8, fmt::format("window {} seed {}", window, seed));
   }
-  EXPECT_FALSE(gpu->kernel_times().empty());
+  for (const auto& backend : backends) EXPECT_FALSE(backend->kernel_times().empty());
 }
 
 TEST_F(BackendsParity, CollectedBlocksAndPoolsAreEqual) {

@@ -44,15 +44,15 @@ class LayoutParity : public ParityTest {
 TEST_F(LayoutParity, SweepParamsAreReadMemberByMember) {
   const auto p = numbered<SweepParams>();
   compare("probe_sweep_params", p,
-          words_of(p.warp.rotation, p.warp.offset, p.width, p.height, p.neighbor_width, p.neighbor_height, p.row_begin,
-                   p.row_count, p.first_plane, p.plane_stride, p.plane_count, p.ncc_offset));
+          words_of(p.warp.rotation, p.warp.offset, p.width, p.height, p.neighbor_width, p.neighbor_height,
+                   p.reference_stride, p.window_stride, p.item_count, p.ncc_offset));
 }
 
 TEST_F(LayoutParity, VoteParamsAreReadMemberByMember) {
   const auto p = numbered<VoteParams>();
   compare("probe_vote_params", p,
-          words_of(p.width, p.row_begin, p.row_count, p.first_plane, p.plane_stride, p.plane_count, p.neighbor_count,
-                   p.min_votes, p.threshold, p.confidence_scale, p.relative_planes));
+          words_of(p.width, p.height, p.block_side, p.block_count, p.item_count, p.neighbor_count, p.min_votes,
+                   p.threshold, p.confidence_scale));
 }
 
 TEST_F(LayoutParity, CollectParamsAreReadMemberByMember) {
@@ -68,14 +68,22 @@ TEST_F(LayoutParity, IntegrateParamsAreReadMemberByMember) {
                    p.inverse_truncation, p.width, p.height, p.list_begin, p.blocks, p.pool_begin));
 }
 
-TEST_F(LayoutParity, RangesAndVotesAreReadFromArrays) {
+TEST_F(LayoutParity, StructsAreReadFromArrays) {
   std::vector<PlaneRange> ranges;
   std::vector<PixelVote> votes;
+  std::vector<SweepItem> items;
+  std::vector<SweepBlock> blocks;
+  std::vector<ReferenceWindow> windows;
   Words members;
   for (std::uint32_t i = 0; i < 3; ++i) {
-    const auto range = ranges.emplace_back(numbered<PlaneRange>(10 * i));
-    const auto vote = votes.emplace_back(numbered<PixelVote>(10 * i + 5));
-    const Words words = words_of(range.first, range.last, vote.correlation, vote.confidence, vote.plane);
+    const auto range = ranges.emplace_back(numbered<PlaneRange>(16 * i));
+    const auto vote = votes.emplace_back(numbered<PixelVote>(16 * i + 2));
+    const auto item = items.emplace_back(numbered<SweepItem>(16 * i + 5));
+    const auto block = blocks.emplace_back(numbered<SweepBlock>(16 * i + 8));
+    const auto window = windows.emplace_back(numbered<ReferenceWindow>(16 * i + 12));
+    const Words words =
+        words_of(range.first, range.last, vote.correlation, vote.confidence, vote.plane, item.x, item.y, item.plane,
+                 block.x, block.y, block.item_begin, block.item_count, window.sum, window.inverse_deviation);
     members.insert(members.end(), words.begin(), words.end());
   }
   const Buffer words = buffer_of(Words(members.size()));
@@ -83,7 +91,10 @@ TEST_F(LayoutParity, RangesAndVotesAreReadFromArrays) {
   const Kernel probe = test_kernel("probe_storage");
   const Buffer range_buffer = buffer_of(ranges);
   const Buffer vote_buffer = buffer_of(votes);
-  commands.dispatch(probe, {}, {range_buffer, vote_buffer, words});
+  const Buffer item_buffer = buffer_of(items);
+  const Buffer block_buffer = buffer_of(blocks);
+  const Buffer window_buffer = buffer_of(windows);
+  commands.dispatch(probe, {}, {range_buffer, vote_buffer, item_buffer, block_buffer, window_buffer, words});
   submit(commands);
   same_words(content<std::uint32_t>(words), members, 1, "probe_storage");
 }

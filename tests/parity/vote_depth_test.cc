@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "host/sweep_batch.h"
 #include "tests/parity/parity_test.h"
 
 namespace quorum {
@@ -14,24 +15,21 @@ struct VoteCase {
   int min_votes;
   float threshold;
   int stride;
-  bool relative;
+  int block_side;
+  int most_items;  // of a batch
   unsigned seed;
 };
 
 class VoteDepthParity : public ParityTest {
  protected:
-  /// Two batches of slots, one after the other, over rows that do not start at the top.
   static void compare(const VoteCase& input) {
-    constexpr int kSlots = 6;
-    const int row_begin = 1;
-    const int row_count = input.height - 1;
-    const auto pixels = static_cast<std::size_t>(input.width * input.height);
+    const auto pixels = static_cast<std::int64_t>(input.width) * input.height;
     std::mt19937 random(input.seed);
     const auto uniform = [&](float low, float high) {
       return std::uniform_real_distribution<float>(low, high)(random);
     };
-    std::vector<PlaneRange> ranges(pixels);
-    for (PlaneRange& range : ranges) {
+    Grid<PlaneRange> ranges(input.width, input.height);
+    for (PlaneRange& range : ranges.values) {
       range.first = static_cast<std::uint32_t>(random() % 10);
       range.last = range.first + static_cast<std::uint32_t>(random() % 60);
       if (random() % 5 == 0) range = {1, 0};
@@ -41,60 +39,59 @@ class VoteDepthParity : public ParityTest {
     options.min_votes = input.min_votes;
     const VoteRule rule = make_vote_rule(options, input.neighbors);
     const Kernel vote_depth = kernel("vote_depth");
-    const Buffer range_buffer = buffer_of(ranges);
-    std::vector<PixelVote> twin(pixels, kNoVote);
-    const Buffer votes = buffer_of(twin);
-    for (int batch = 0; batch < 2; ++batch) {
-      std::vector<float> ncc(static_cast<std::size_t>(input.neighbors * kSlots * row_count * input.width));
+    const Buffer range_buffer = buffer_of(ranges.values);
+    Grid<PixelVote> twin(input.width, input.height, kNoVote);
+    const Buffer votes = buffer_of(twin.values);
+    const int side = input.block_side;
+    SweepBatches batches(ranges, side, input.stride);
+    for (SweepBatch batch = batches.next(input.most_items, 6); !batch.items.empty();
+         batch = batches.next(input.most_items, 6)) {
+      std::vector<float> ncc(static_cast<std::size_t>(input.neighbors * side * side) * batch.items.size());
       for (float& value : ncc) {
         const unsigned kind = static_cast<unsigned>(random() % 10);
         value = kind == 0 ? -1.0F : kind == 1 ? input.threshold : kind == 2 ? 0.875F : uniform(-1.0F, 1.0F);
       }
       const VoteParams params{.width = input.width,
-                              .row_begin = row_begin,
-                              .row_count = row_count,
-                              .first_plane = batch * kSlots * input.stride,
-                              .plane_stride = input.stride,
-                              .plane_count = kSlots,
+                              .height = input.height,
+                              .block_side = side,
+                              .block_count = static_cast<int>(batch.blocks.size()),
+                              .item_count = static_cast<int>(batch.items.size()),
                               .neighbor_count = input.neighbors,
                               .min_votes = rule.min_votes,
                               .threshold = rule.threshold,
-                              .confidence_scale = rule.confidence_scale,
-                              .relative_planes = input.relative ? 1 : 0};
-      run(vote_depth, {input.width, row_count}, params, {range_buffer, buffer_of(ncc), votes});
-      for (int row = 0; row < row_count; ++row) {
-        for (int x = 0; x < input.width; ++x) {
-          const auto pixel = static_cast<std::size_t>((row_begin + row) * input.width + x);
-          const PlaneRange& range = ranges[pixel];
-          for (int slot = 0; slot < kSlots && range.first <= range.last; ++slot) {
-            const std::uint32_t plane = static_cast<std::uint32_t>(params.first_plane + slot * input.stride) +
-                                        (input.relative ? range.first : 0U);
-            if (plane < range.first || plane > range.last) continue;
-            float sum = 0.0F;
-            int count = 0;
-            for (int neighbor = 0; neighbor < input.neighbors; ++neighbor) {
-              const float value =
-                  ncc[static_cast<std::size_t>(((neighbor * kSlots + slot) * row_count + row) * input.width + x)];
-              if (value > rule.threshold) sum += value, ++count;
-            }
-            twin[pixel] = vote(twin[pixel], sum, count, static_cast<int>(plane), rule);
+                              .confidence_scale = rule.confidence_scale};
+      run(vote_depth, {params.block_count * side * side / 4}, params,
+          {buffer_of(batch.blocks), buffer_of(batch.items), range_buffer, buffer_of(ncc), votes});
+      for (std::size_t item = 0; item < batch.items.size(); ++item) {
+        for (int pixel = 0; pixel < side * side; ++pixel) {
+          const int x = batch.items[item].x + pixel % side;
+          const int y = batch.items[item].y + pixel / side;
+          if (!ranges.contains(x, y)) continue;
+          const auto plane = static_cast<std::uint32_t>(batch.items[item].plane);
+          if (plane < ranges.at(x, y).first || plane > ranges.at(x, y).last) continue;
+          float sum = 0.0F;
+          int count = 0;
+          for (int neighbor = 0; neighbor < input.neighbors; ++neighbor) {
+            const std::size_t block = static_cast<std::size_t>(neighbor) * batch.items.size() + item;
+            const float value = ncc[block * static_cast<std::size_t>(side * side) + static_cast<std::size_t>(pixel)];
+            if (value > rule.threshold) sum += value, ++count;
           }
+          twin.at(x, y) = vote(twin.at(x, y), sum, count, batch.items[item].plane, rule);
         }
       }
-      ASSERT_TRUE(
-          same_words(content<PixelVote>(votes), twin, input.width, fmt::format("seed {} batch {}", input.seed, batch)));
+      ASSERT_TRUE(same_words(content<PixelVote>(votes), twin.values, input.width, fmt::format("seed {}", input.seed)));
     }
-    const auto found = std::ranges::count_if(twin, [](const PixelVote& value) { return value.plane >= 0; });
-    expect_share(found, static_cast<std::int64_t>(pixels), 0.1, 0.95, "pixels with a plane");
+    const auto found = std::ranges::count_if(twin.values, [](const PixelVote& value) { return value.plane >= 0; });
+    expect_share(found, pixels, 0.1, 0.95, "pixels with a plane");
   }
 };
 
 TEST_F(VoteDepthParity, SeededVotesGiveTheBytesOfTheTwin) {
-  compare({131, 37, 4, 2, 0.6F, 10, false, 1});
-  compare({67, 45, 3, 2, 0.6F, 1, true, 2});
-  compare({63, 20, 9, 1, 0.9F, 1, false, 3});
-  compare({97, 21, 32, 7, 0.5F, 3, false, 4});
-  compare({65, 33, 2, 2, 0.0F, 1, true, 5});
+  compare({131, 37, 4, 2, 0.6F, 10, 8, 400, 1});
+  compare({67, 45, 3, 2, 0.6F, 1, 16, 150, 2});
+  compare({63, 20, 9, 1, 0.9F, 1, 8, 1 << 20, 3});
+  compare({97, 21, 32, 7, 0.5F, 3, 16, 60, 4});
+  compare({65, 33, 2, 2, 0.0F, 1, 8, 700, 5});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Inputs of the two kernels that compute windows.
+// Inputs of the kernels that compute windows.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/depth/sweep_depth.h"
+#include "host/depth_stage.h"
 #include "host/kernel_layout.h"
 #include "tests/support/sphere_scene.h"
 
@@ -31,15 +32,22 @@ struct WindowCase {
     options.window_model = model;
     options.step_pixels = 2.0;
     SweepTask result = make_sphere_task(make_sphere_scene(4, width, height, flip, seed), 1, options);
-    std::mt19937 random(seed);  // some pixels test nothing, so that strips have gaps
+    std::mt19937 random(seed);  // some pixels test nothing, so that blocks have gaps
     for (PlaneRange& range : result.ranges.values)
       if (random() % 8 == 0) range = {1, 0};
     return result;
   }
-  [[nodiscard]] std::vector<SpecConstant> constants() const {
-    return {{"kWindow", static_cast<std::uint32_t>(window)},
-            {"kAxisModel", model == WindowModel::kAxis ? 1U : 0U},
-            {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(window))}};
+  /// The kernels that sweep this model.
+  [[nodiscard]] std::vector<SweepForm> forms() const {
+    if (model == WindowModel::kAxis) return {SweepForm::kGroups};
+    return {SweepForm::kGroups, SweepForm::kLanes};
+  }
+  [[nodiscard]] std::vector<SpecConstant> constants(SweepForm form) const {
+    std::vector<SpecConstant> constants = {
+        {"kWindow", static_cast<std::uint32_t>(window)},
+        {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(window))}};
+    if (form == SweepForm::kGroups) constants.push_back({"kAxisModel", model == WindowModel::kAxis ? 1U : 0U});
+    return constants;
   }
 };
 

@@ -14,10 +14,8 @@ void main() {
   words[13] = uint(p.height);
   words[14] = uint(p.neighbor_width);
   words[15] = uint(p.neighbor_height);
-  words[16] = uint(p.row_begin);
-  words[17] = uint(p.row_count);
-  words[18] = uint(p.first_plane);
-  words[19] = uint(p.plane_stride);
-  words[20] = uint(p.plane_count);
-  words[21] = uint(p.ncc_offset);
+  words[16] = uint(p.reference_stride);
+  words[17] = uint(p.window_stride);
+  words[18] = uint(p.item_count);
+  words[19] = uint(p.ncc_offset);
 }
