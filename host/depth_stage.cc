@@ -13,35 +13,44 @@ namespace quorum {
 namespace {
 
 constexpr std::int64_t kNccValues = 16LL << 20;  // room for a batch: 64 MiB, below any maxStorageBufferRange
-constexpr std::int64_t kMaxItems = 65535;        // of a batch: a work group each
+constexpr std::int64_t kMaxGroups = 65535;       // that any device allows
 constexpr std::int64_t kMaxPlanes =
     1024;  // of a block: with 32 neighbors 32,768 rounds of vote_depth's loops. lavapipe
            // stops the loops of an invocation after 65,535 rounds, without a word
 constexpr std::int64_t kLeastWindows = 1LL << 14;
 constexpr std::int64_t kStartWindows = 1LL << 18;
 
-int block_side(SweepForm form) { return form == SweepForm::kLanes ? kLaneBlockSide : kGroupBlockSide; }
+constexpr std::int64_t kLanesGroupSize = 16;  // invocations, each with an item
 
-SweepParams make_sweep_params(const SweepTask& task, SweepForm form, std::size_t neighbor, int item_count) {
+// Blocks of the second pass are smaller: the fewer pixels a block has, the fewer planes it tests that most of them
+// don't.
+constexpr BlockSize first_block(SweepForm form) {
+  return form == SweepForm::kLanes ? BlockSize{8, 8} : BlockSize{16, 16};
+}
+constexpr BlockSize second_block(SweepForm form) {
+  return form == SweepForm::kLanes ? BlockSize{4, 4} : BlockSize{8, 8};
+}
+
+SweepParams make_sweep_params(const SweepTask& task, BlockSize block, std::size_t neighbor, int item_count) {
   const int width = task.reference->width;
   const PaddedImage& image = *task.neighbors[neighbor];
-  const int side = block_side(form);
   return {.warp = task.warps[neighbor],
           .width = width,
           .height = task.reference->height,
           .neighbor_width = image.width,
           .neighbor_height = image.height,
           .reference_stride = reference_texels_stride(width, task.options.window),
-          .window_stride = whole_blocks(width, side),
+          .window_stride = whole_blocks(width),
           .item_count = item_count,
-          .ncc_offset = static_cast<int>(neighbor) * item_count * (side * side / 4)};
+          .ncc_offset = static_cast<int>(neighbor) * item_count * (block.pixels() / 4)};
 }
 
-VoteParams make_vote_params(const SweepTask& task, SweepForm form, const SweepBatch& batch) {
+VoteParams make_vote_params(const SweepTask& task, BlockSize block, const SweepBatch& batch) {
   const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
   return {.width = task.reference->width,
           .height = task.reference->height,
-          .block_side = block_side(form),
+          .block_width = block.width,
+          .block_height = block.height,
           .block_count = static_cast<int>(batch.blocks.size()),
           .item_count = static_cast<int>(batch.items.size()),
           .neighbor_count = task.neighbor_count(),
@@ -53,11 +62,12 @@ VoteParams make_vote_params(const SweepTask& task, SweepForm form, const SweepBa
 }  // namespace
 
 Expected<DepthStage> DepthStage::create(const Device& device, Commands& commands, std::optional<SweepForm> form) {
-  auto vote_depth = Kernel::create(device, find_kernel("vote_depth"));
-  if (!vote_depth) return std::unexpected(vote_depth.error());
   const bool software = device.info().kind == DeviceKind::kSoftware && device.info().has_float64;
-  return DepthStage(device, commands, form.value_or(software ? SweepForm::kLanes : SweepForm::kGroups),
-                    std::move(*vote_depth));
+  const SweepForm chosen = form.value_or(software ? SweepForm::kLanes : SweepForm::kGroups);
+  auto vote_depth =
+      Kernel::create(device, find_kernel(chosen == SweepForm::kLanes ? "vote_depth_lanes" : "vote_depth"));
+  if (!vote_depth) return std::unexpected(vote_depth.error());
+  return DepthStage(device, commands, chosen, std::move(*vote_depth));
 }
 
 DepthStage::DepthStage(const Device& device, Commands& commands, SweepForm form, Kernel vote_depth)
@@ -73,20 +83,34 @@ SweepForm DepthStage::form_of(const SweepTask& task) const {
   return fits(task.reference) && std::ranges::all_of(task.neighbors, fits) ? form_ : SweepForm::kGroups;
 }
 
-Expected<void> DepthStage::prepare_kernel(const SweepTask& task) {
+Expected<DepthStage::Pass> DepthStage::make_pass(SweepForm form, const SweepOptions& options, BlockSize block) const {
+  std::vector<SpecConstant> constants = {
+      {"kWindow", static_cast<std::uint32_t>(options.window)},
+      {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(options.window))},
+      {"kBlockWidth", static_cast<std::uint32_t>(block.width)},
+      {"kBlockHeight", static_cast<std::uint32_t>(block.height)}};
+  if (form == SweepForm::kLanes) {
+    constants.push_back({"kGroupSize", static_cast<std::uint32_t>(kLanesGroupSize)});
+  } else {
+    constants.push_back({"kGroupSize", static_cast<std::uint32_t>(block.pixels())});
+    constants.push_back({"kAxisModel", options.window_model == WindowModel::kAxis ? 1U : 0U});
+  }
+  const KernelCode& code = find_kernel(form == SweepForm::kLanes ? "sweep_depth_lanes" : "sweep_depth");
+  auto kernel = Kernel::create(*device_, code, constants);
+  if (!kernel) return std::unexpected(kernel.error());
+  return Pass{block, std::move(*kernel)};
+}
+
+Expected<void> DepthStage::prepare_kernels(const SweepTask& task) {
   const SweepOptions& options = task.options;
   const SweepForm form = form_of(task);
   if (sweep_ && sweep_->form == form && sweep_->window == options.window && sweep_->model == options.window_model)
     return {};
-  std::vector<SpecConstant> constants = {
-      {"kWindow", static_cast<std::uint32_t>(options.window)},
-      {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(options.window))}};
-  if (form == SweepForm::kGroups)
-    constants.push_back({"kAxisModel", options.window_model == WindowModel::kAxis ? 1U : 0U});
-  auto kernel =
-      Kernel::create(*device_, find_kernel(form == SweepForm::kLanes ? "sweep_depth_lanes" : "sweep_depth"), constants);
-  if (!kernel) return std::unexpected(kernel.error());
-  sweep_.emplace(Sweep{form, options.window, options.window_model, std::move(*kernel)});
+  auto first = make_pass(form, options, first_block(form));
+  if (!first) return std::unexpected(first.error());
+  auto second = make_pass(form, options, second_block(form));
+  if (!second) return std::unexpected(second.error());
+  sweep_.emplace(Sweep{form, options.window, options.window_model, std::move(*first), std::move(*second)});
   return {};
 }
 
@@ -96,8 +120,7 @@ Expected<DepthStage::Inputs> DepthStage::upload(const SweepTask& task) const {
   auto reference = lanes ? Buffer::of(*device_, make_reference_texels(*task.reference, window))
                          : Buffer::of(*device_, task.reference->pixels);
   if (!reference) return std::unexpected(reference.error());
-  auto windows = Buffer::of(
-      *device_, in_whole_blocks(make_reference_windows(*task.reference, window), block_side(sweep_->form)).values);
+  auto windows = Buffer::of(*device_, in_whole_blocks(make_reference_windows(*task.reference, window)).values);
   if (!windows) return std::unexpected(windows.error());
   std::vector<Buffer> neighbors;
   for (const auto& image : task.neighbors) {
@@ -105,17 +128,14 @@ Expected<DepthStage::Inputs> DepthStage::upload(const SweepTask& task) const {
     if (!neighbor) return std::unexpected(neighbor.error());
     neighbors.push_back(std::move(*neighbor));
   }
-  auto planes = Buffer::of(*device_, task.planes.inverse_depth);
-  if (!planes) return std::unexpected(planes.error());
   auto ncc = Buffer::create(*device_, static_cast<std::uint64_t>(kNccValues) * sizeof(float));
   if (!ncc) return std::unexpected(ncc.error());
-  return Inputs{std::move(*reference), std::move(*windows), std::move(neighbors), std::move(*planes), std::move(*ncc)};
+  return Inputs{std::move(*reference), std::move(*windows), std::move(neighbors), std::move(*ncc)};
 }
 
-Expected<void> DepthStage::run_batch(const SweepTask& task, const Inputs& inputs, const SweepBatch& batch,
-                                     const Buffer& ranges, const Buffer& votes) {
-  const SweepForm form = sweep_->form;
-  const std::int64_t windows_of_item = std::int64_t{block_side(form)} * block_side(form);
+Expected<void> DepthStage::run_batch(const SweepTask& task, const Inputs& inputs, const Pass& pass,
+                                     const SweepBatch& batch, const Buffer& ranges, const Buffer& votes) {
+  const std::int64_t windows_of_item = pass.block.pixels();
   const auto item_count = static_cast<std::int64_t>(batch.items.size());
   auto blocks = Buffer::of(*device_, batch.blocks);
   if (!blocks) return std::unexpected(blocks.error());
@@ -123,31 +143,30 @@ Expected<void> DepthStage::run_batch(const SweepTask& task, const Inputs& inputs
   if (!items) return std::unexpected(items.error());
   commands_->region("sweep_depth");
   for (std::size_t neighbor = 0; neighbor < inputs.neighbors.size(); ++neighbor)
-    commands_->dispatch(
-        sweep_->kernel, {form == SweepForm::kLanes ? item_count : item_count * windows_of_item},
-        make_sweep_params(task, form, neighbor, static_cast<int>(item_count)),
-        {*items, inputs.planes, inputs.reference, inputs.windows, inputs.neighbors[neighbor], inputs.ncc});
+    commands_->dispatch(pass.kernel, {sweep_->form == SweepForm::kLanes ? item_count : item_count * windows_of_item},
+                        make_sweep_params(task, pass.block, neighbor, static_cast<int>(item_count)),
+                        {*items, inputs.reference, inputs.windows, inputs.neighbors[neighbor], inputs.ncc});
   commands_->region("vote_depth");
   commands_->dispatch(vote_depth_, {static_cast<std::int64_t>(batch.blocks.size()) * windows_of_item / 4},
-                      make_vote_params(task, form, batch), {*blocks, *items, ranges, inputs.ncc, votes});
+                      make_vote_params(task, pass.block, batch), {*blocks, *items, ranges, inputs.ncc, votes});
   return commands_->submit();
 }
 
 Expected<Grid<PixelVote>> DepthStage::run_pass(const SweepTask& task, const Inputs& inputs,
-                                               const Grid<PlaneRange>& ranges, int stride) {
+                                               const Grid<PlaneRange>& ranges, const Pass& pass, int stride) {
   Grid<PixelVote> votes(ranges.width, ranges.height, kNoVote);
   auto range_buffer = Buffer::of(*device_, ranges.values);
   if (!range_buffer) return std::unexpected(range_buffer.error());
   auto vote_buffer = Buffer::of(*device_, votes.values);
   if (!vote_buffer) return std::unexpected(vote_buffer.error());
-  const int side = block_side(sweep_->form);
-  const std::int64_t item_windows = std::int64_t{side} * side * task.neighbor_count();
-  SweepBatches batches(ranges, side, stride);
+  const std::int64_t item_windows = std::int64_t{pass.block.pixels()} * task.neighbor_count();
+  const std::int64_t max_items = kMaxGroups * (sweep_->form == SweepForm::kLanes ? kLanesGroupSize : 1);
+  SweepBatches batches(ranges, task.planes.inverse_depth, pass.block, stride);
   while (true) {
-    const std::int64_t most = std::clamp<std::int64_t>(batch_size_.items() / item_windows, 1, kMaxItems);
+    const std::int64_t most = std::clamp<std::int64_t>(batch_size_.items() / item_windows, 1, max_items);
     const SweepBatch batch = batches.next(most, kMaxPlanes);
     if (batch.items.empty()) break;
-    if (auto done = run_batch(task, inputs, batch, *range_buffer, *vote_buffer); !done)
+    if (auto done = run_batch(task, inputs, pass, batch, *range_buffer, *vote_buffer); !done)
       return std::unexpected(done.error());
     batch_size_.measured(static_cast<std::int64_t>(batch.items.size()) * item_windows,
                          commands_->last_submission_seconds());
@@ -157,11 +176,12 @@ Expected<Grid<PixelVote>> DepthStage::run_pass(const SweepTask& task, const Inpu
 }
 
 Expected<DepthMap> DepthStage::run(const SweepTask& task) {
-  if (auto ready = prepare_kernel(task); !ready) return std::unexpected(ready.error());
+  if (auto ready = prepare_kernels(task); !ready) return std::unexpected(ready.error());
   auto inputs = upload(task);
   if (!inputs) return std::unexpected(inputs.error());
-  auto votes = run_pass(task, *inputs, task.ranges, task.planes.refinement);
-  if (votes && task.planes.refinement > 1) votes = run_pass(task, *inputs, refine_ranges(*votes, task.planes), 1);
+  auto votes = run_pass(task, *inputs, task.ranges, sweep_->first, task.planes.refinement);
+  if (votes && task.planes.refinement > 1)
+    votes = run_pass(task, *inputs, refine_ranges(*votes, task.planes), sweep_->second, 1);
   if (!votes) return std::unexpected(votes.error());
   return depth_map_from_votes(*votes, task.planes);
 }

@@ -29,30 +29,36 @@ class DepthStage {
   Expected<DepthMap> run(const SweepTask& task);
 
  private:
-  /// The kernel for one window size and model.
+  /// The kernel of a pass, for blocks of one size.
+  struct Pass {
+    BlockSize block;
+    Kernel kernel;
+  };
+  /// The kernels for one window size and model.
   struct Sweep {
     SweepForm form;
     int window;
     WindowModel model;
-    Kernel kernel;
+    Pass first;
+    Pass second;
   };
   /// Device copies of a task's inputs, and the room for what the kernels pass on.
   struct Inputs {
     Buffer reference;
     Buffer windows;
     std::vector<Buffer> neighbors;
-    Buffer planes;
     Buffer ncc;
   };
 
   DepthStage(const Device& device, Commands& commands, SweepForm form, Kernel vote_depth);
   [[nodiscard]] SweepForm form_of(const SweepTask& task) const;
-  Expected<void> prepare_kernel(const SweepTask& task);
+  Expected<void> prepare_kernels(const SweepTask& task);
+  [[nodiscard]] Expected<Pass> make_pass(SweepForm form, const SweepOptions& options, BlockSize block) const;
   Expected<Inputs> upload(const SweepTask& task) const;
   Expected<Grid<PixelVote>> run_pass(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges,
-                                     int stride);
-  Expected<void> run_batch(const SweepTask& task, const Inputs& inputs, const SweepBatch& batch, const Buffer& ranges,
-                           const Buffer& votes);
+                                     const Pass& pass, int stride);
+  Expected<void> run_batch(const SweepTask& task, const Inputs& inputs, const Pass& pass, const SweepBatch& batch,
+                           const Buffer& ranges, const Buffer& votes);
 
   const Device* device_;
   Commands* commands_;

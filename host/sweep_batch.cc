@@ -4,8 +4,9 @@
 
 namespace quorum {
 
-SweepBatches::SweepBatches(const Grid<PlaneRange>& ranges, int block_side, int stride)
-    : ranges_(&ranges), block_side_(block_side), stride_(stride) {
+SweepBatches::SweepBatches(const Grid<PlaneRange>& ranges, std::span<const float> inverse_depths, BlockSize block,
+                           int stride)
+    : ranges_(&ranges), inverse_depths_(inverse_depths), block_(block), stride_(stride) {
   if (!ranges.empty()) collect_planes();
 }
 
@@ -17,14 +18,15 @@ SweepBatch SweepBatches::next(std::int64_t most_items, std::int64_t most_planes)
       if (room == 0) return batch;
       const std::size_t count = std::min({planes_.size() - planes_done_, room, static_cast<std::size_t>(most_planes)});
       batch.blocks.push_back({x_, y_, static_cast<int>(batch.items.size()), static_cast<int>(count)});
-      for (std::size_t i = 0; i < count; ++i) batch.items.push_back({x_, y_, planes_[planes_done_ + i]});
+      for (std::size_t i = planes_done_; i < planes_done_ + count; ++i)
+        batch.items.push_back({x_, y_, planes_[i], inverse_depths_[static_cast<std::size_t>(planes_[i])]});
       planes_done_ += count;
       if (planes_done_ < planes_.size()) return batch;  // a block comes once in a batch
     }
-    x_ += block_side_;
+    x_ += block_.width;
     if (x_ >= ranges_->width) {
       x_ = 0;
-      y_ += block_side_;
+      y_ += block_.height;
     }
     if (y_ < ranges_->height) collect_planes();
   }
@@ -34,8 +36,8 @@ SweepBatch SweepBatches::next(std::int64_t most_items, std::int64_t most_planes)
 void SweepBatches::collect_planes() {
   planes_.clear();
   planes_done_ = 0;
-  const int x_end = std::min(x_ + block_side_, ranges_->width);
-  const int y_end = std::min(y_ + block_side_, ranges_->height);
+  const int x_end = std::min(x_ + block_.width, ranges_->width);
+  const int y_end = std::min(y_ + block_.height, ranges_->height);
   uint first = ~0U;
   uint last = 0;
   for (int y = y_; y < y_end; ++y) {

@@ -2,12 +2,21 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/core/grid.h"
 #include "shaders/layout.h"
 
 namespace quorum {
+
+/// A block's size, pixels: width 4, 8 or 16, height a divisor of kBlockMultiple.
+struct BlockSize {
+  int width = 8;
+  int height = 8;
+
+  [[nodiscard]] int pixels() const { return width * height; }
+};
 
 /// What one submission sweeps. Items of a block stand together, planes rising.
 struct SweepBatch {
@@ -19,8 +28,8 @@ struct SweepBatch {
 /// batch or in several, so that votes do not depend on the batches.
 class SweepBatches {
  public:
-  /// ranges: must outlive the object. block_side: pixels. stride: planes between those tested; 1 or more.
-  SweepBatches(const Grid<PlaneRange>& ranges, int block_side, int stride);
+  /// ranges, inverse_depths: must outlive the object. stride: planes between those tested; 1 or more.
+  SweepBatches(const Grid<PlaneRange>& ranges, std::span<const float> inverse_depths, BlockSize block, int stride);
 
   /// The next batch; empty when all are done. most_items: 1 or more. most_planes: of one block, 1 or more.
   SweepBatch next(std::int64_t most_items, std::int64_t most_planes);
@@ -30,7 +39,8 @@ class SweepBatches {
   void collect_planes();
 
   const Grid<PlaneRange>* ranges_;
-  int block_side_;
+  std::span<const float> inverse_depths_;
+  BlockSize block_;
   int stride_;
   int x_ = 0;  ///< of the current block
   int y_ = 0;

@@ -2,14 +2,12 @@
 
 namespace quorum {
 
-int reference_texels_stride(int width, int window) {
-  return (whole_blocks(width, kLaneBlockSide) + window - 1 + 3) / 4;
-}
+int reference_texels_stride(int width, int window) { return (whole_blocks(width) + window - 1 + 3) / 4; }
 
 std::vector<Texel> make_reference_texels(const PaddedImage& image, int window) {
   const int radius = window / 2;
   const int stride = reference_texels_stride(image.width, window);
-  const int rows = whole_blocks(image.height, kLaneBlockSide) + window - 1;
+  const int rows = whole_blocks(image.height) + window - 1;
   std::vector<Texel> texels(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows));
   for (int y = 0; y < image.height; ++y) {
     Texel* row = texels.data() + static_cast<std::ptrdiff_t>(y + radius) * stride;

@@ -23,9 +23,8 @@ const int kLargestFullPrecisionWindow = 13;
 // A neighbor that would see a point at less than this share of the reference depth does not see it.
 const float kMinDepthRatio = 0.0009765625f;  // 1/1024
 
-// Sides of the square blocks of pixels that the sweep takes as a whole, by form of the kernel.
-const int kGroupBlockSide = 16;  // sweep_depth: a work group per block
-const int kLaneBlockSide = 8;    // sweep_depth_lanes: an invocation per block
+// The sweep takes blocks of pixels as a whole, whose sides divide this; their width is a multiple of 4.
+const int kBlockMultiple = 16;
 
 // Voxels.
 const int kBlockSide = 8;           // voxels along an edge of a block
@@ -71,14 +70,15 @@ struct PixelVote {
 };
 QUORUM_SIZE(PixelVote, 12);
 
-// A block of the reference view that is swept on one plane, all its windows together. x, y: its first pixel, a multiple of
-// the block's side, which the kernel knows.
+// A block of the reference view that is swept on one plane, all its windows together. x, y: its first pixel, a
+// multiple of the block's size, which the kernel knows.
 struct SweepItem {
   int x;
   int y;
   int plane;
+  float inverse_depth;  // of the plane
 };
-QUORUM_SIZE(SweepItem, 12);
+QUORUM_SIZE(SweepItem, 16);
 
 // A block with its items of a batch, which stand together in the order of their planes.
 struct SweepBlock {
@@ -114,7 +114,8 @@ QUORUM_SIZE(SweepParams, 80);
 struct VoteParams {
   int width;
   int height;
-  int block_side;   // pixels, a multiple of 4
+  int block_width;   // pixels
+  int block_height;  // pixels
   int block_count;  // of this batch
   int item_count;   // of this batch
   int neighbor_count;
@@ -122,7 +123,7 @@ struct VoteParams {
   float threshold;
   float confidence_scale;  // 1 / (neighbor count * (1 - threshold))
 };
-QUORUM_SIZE(VoteParams, 36);
+QUORUM_SIZE(VoteParams, 40);
 
 // range_surface: the triangles of one depth map.
 struct RangeSurfaceParams {

@@ -9,30 +9,32 @@
 #include "lib/sample_bilinear.glsl"
 #include "lib/ncc_from_sums.glsl"
 
-layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;  // kGroupBlockSide^2
+layout(local_size_x_id = 3, local_size_y = 1, local_size_z = 1) in;
 layout(constant_id = 0) const int kWindow = 5;
 layout(constant_id = 1) const int kAxisModel = 0;  // 1: the paper's axis-aligned windows; 0: windows on the plane
 layout(constant_id = 2) const int kShift = 12;     // kSampleShift, one more for the largest windows
+layout(constant_id = 3) const uint kGroupSize = 256;  // kBlockWidth * kBlockHeight
+layout(constant_id = 4) const int kBlockWidth = 16;
+layout(constant_id = 5) const int kBlockHeight = 16;
 
 layout(push_constant) uniform Push { SweepParams p; };
 layout(std430, binding = 0) readonly buffer Items { SweepItem items[]; };
-layout(std430, binding = 1) readonly buffer Planes { float inverse_depths[]; };
-layout(std430, binding = 2) readonly buffer Reference { uint reference_pixels[]; };
-layout(std430, binding = 3) readonly buffer Windows { ReferenceWindow reference_windows[]; };
-layout(std430, binding = 4) readonly buffer Neighbor { uint neighbor_pixels[]; };
-layout(std430, binding = 5) writeonly buffer Ncc { float ncc_values[]; };
+layout(std430, binding = 1) readonly buffer Reference { uint reference_pixels[]; };
+layout(std430, binding = 2) readonly buffer Windows { ReferenceWindow reference_windows[]; };
+layout(std430, binding = 3) readonly buffer Neighbor { uint neighbor_pixels[]; };
+layout(std430, binding = 4) writeonly buffer Ncc { float ncc_values[]; };
 
 const int kRadius = kWindow / 2;
-const int kSide = kGroupBlockSide;
-const int kGroupSize = kSide * kSide;
-const int kSamples = kSide + kWindow - 1;  // along a side
+const int kPixels = kBlockWidth * kBlockHeight;
+const int kColumns = kBlockWidth + kWindow - 1;  // of samples
+const int kRows = kBlockHeight + kWindow - 1;
 
 // Of a row of samples: each sample, then sums along the row, which take a column less for each further pixel of a window.
-shared ivec3 row_b[kSamples * kSamples];
-shared ivec2 row_products[kSamples * kSamples];  // b * b, a * b
-shared ivec3 sum_b[kSamples * kSide];
-shared ivec2 sum_products[kSamples * kSide];
-shared bool row_inside[kSamples * kSamples];
+shared ivec3 row_b[kColumns * kRows];
+shared ivec2 row_products[kColumns * kRows];  // b * b, a * b
+shared ivec3 sum_b[kBlockWidth * kRows];
+shared ivec2 sum_products[kBlockWidth * kRows];
+shared bool row_inside[kColumns * kRows];
 
 // Clamped: blocks reach over the image, where no pixel asks for a window.
 ivec3 reference_sample(int x, int y) {
@@ -67,20 +69,19 @@ void main() {
   int thread = int(gl_LocalInvocationID.x);
   int item_index = int(gl_WorkGroupID.x);
   SweepItem item = items[item_index];
-  float inverse_depth = inverse_depths[item.plane];
-  int column = thread % kSide;
-  int row = thread / kSide;
+  int column = thread % kBlockWidth;
+  int row = thread / kBlockWidth;
   ReferenceWindow window = reference_windows[(item.y + row) * p.window_stride + item.x + column];
-  int output_index = 4 * p.ncc_offset + item_index * kGroupSize + thread;
+  int output_index = 4 * p.ncc_offset + item_index * kPixels + thread;
   if (kAxisModel != 0) {
-    ncc_values[output_index] = axis_window_ncc(item.x + column, item.y + row, inverse_depth, window);
+    ncc_values[output_index] = axis_window_ncc(item.x + column, item.y + row, item.inverse_depth, window);
     return;
   }
 
-  for (int i = thread; i < kSamples * kSamples; i += kGroupSize) {
-    int x = item.x - kRadius + i % kSamples;
-    int y = item.y - kRadius + i / kSamples;
-    Projection at = project(p.warp, x, y, inverse_depth, p.neighbor_width, p.neighbor_height);
+  for (int i = thread; i < kColumns * kRows; i += kPixels) {
+    int x = item.x - kRadius + i % kColumns;
+    int y = item.y - kRadius + i / kColumns;
+    Projection at = project(p.warp, x, y, item.inverse_depth, p.neighbor_width, p.neighbor_height);
     ivec3 a = reference_sample(x, y);
     ivec3 b = neighbor_sample(at.u, at.v);
     row_b[i] = b;
@@ -88,8 +89,8 @@ void main() {
     row_inside[i] = at.inside;
   }
   barrier();
-  for (int i = thread; i < kSamples * kSide; i += kGroupSize) {
-    int first = i / kSide * kSamples + i % kSide;
+  for (int i = thread; i < kBlockWidth * kRows; i += kPixels) {
+    int first = i / kBlockWidth * kColumns + i % kBlockWidth;
     ivec3 b = ivec3(0);
     ivec2 products = ivec2(0);
     for (int k = 0; k < kWindow; ++k) {
@@ -102,15 +103,15 @@ void main() {
   barrier();
   WindowSums sums = no_sums();
   for (int k = 0; k < kWindow; ++k) {
-    int i = (row + k) * kSide + column;
+    int i = (row + k) * kBlockWidth + column;
     sums.b += sum_b[i];
     sums.bb += sum_products[i].x;
     sums.ab += sum_products[i].y;
   }
   // A plane maps the window to a convex quadrilateral, so the corners decide for all of it.
-  int corner = row * kSamples + column;
+  int corner = row * kColumns + column;
   bool sees = row_inside[corner] && row_inside[corner + kWindow - 1] &&
-              row_inside[corner + (kWindow - 1) * kSamples] &&
-              row_inside[corner + (kWindow - 1) * (kSamples + 1)];
+              row_inside[corner + (kWindow - 1) * kColumns] &&
+              row_inside[corner + (kWindow - 1) * (kColumns + 1)];
   ncc_values[output_index] = sees ? ncc_from_sums(window, sums, kWindow * kWindow) : kNoNcc;
 }

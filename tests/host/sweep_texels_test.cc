@@ -38,9 +38,9 @@ TEST(SweepTexels, TheReferenceIsShiftedByTheRadiusAndReachesOverTheLastBlocks) {
 
 TEST(SweepTexels, WholeBlocksKeepTheGrid) {
   Grid<int> grid(9, 3, 7);
-  const Grid<int> blocks = in_whole_blocks(grid, 8);
+  const Grid<int> blocks = in_whole_blocks(grid);
   EXPECT_EQ(blocks.width, 16);
-  EXPECT_EQ(blocks.height, 8);
+  EXPECT_EQ(blocks.height, 16);
   EXPECT_EQ(blocks.at(8, 2), 7);
   EXPECT_EQ(blocks.at(9, 2), 0);
   EXPECT_EQ(blocks.at(0, 3), 0);

@@ -72,6 +72,7 @@ TEST_F(BackendsParity, DepthMapsAreEqualInEveryForm) {
     const SweepTask task = make_sphere_task(sphere, 2, options);
     const DepthMap twin = cpu.sweep_depth(task).value();
     for (std::size_t i = 0; i < backends.size(); ++i) {
+      if (model == WindowModel::kAxis && i > 0) continue;  // there is one form for it
       const DepthMap on_device = backends[i]->sweep_depth(task).value();
       const std::string what = fmt::format("window {} seed {} form {}", window, seed, i);
       ASSERT_TRUE(same_words(on_device.depth.values, twin.depth.values, 97, what + " depth"));

@@ -51,8 +51,8 @@ TEST_F(LayoutParity, SweepParamsAreReadMemberByMember) {
 TEST_F(LayoutParity, VoteParamsAreReadMemberByMember) {
   const auto p = numbered<VoteParams>();
   compare("probe_vote_params", p,
-          words_of(p.width, p.height, p.block_side, p.block_count, p.item_count, p.neighbor_count, p.min_votes,
-                   p.threshold, p.confidence_scale));
+          words_of(p.width, p.height, p.block_width, p.block_height, p.block_count, p.item_count, p.neighbor_count,
+                   p.min_votes, p.threshold, p.confidence_scale));
 }
 
 TEST_F(LayoutParity, CollectParamsAreReadMemberByMember) {
@@ -76,14 +76,14 @@ TEST_F(LayoutParity, StructsAreReadFromArrays) {
   std::vector<ReferenceWindow> windows;
   Words members;
   for (std::uint32_t i = 0; i < 3; ++i) {
-    const auto range = ranges.emplace_back(numbered<PlaneRange>(16 * i));
-    const auto vote = votes.emplace_back(numbered<PixelVote>(16 * i + 2));
-    const auto item = items.emplace_back(numbered<SweepItem>(16 * i + 5));
-    const auto block = blocks.emplace_back(numbered<SweepBlock>(16 * i + 8));
-    const auto window = windows.emplace_back(numbered<ReferenceWindow>(16 * i + 12));
-    const Words words =
-        words_of(range.first, range.last, vote.correlation, vote.confidence, vote.plane, item.x, item.y, item.plane,
-                 block.x, block.y, block.item_begin, block.item_count, window.sum, window.inverse_deviation);
+    const auto range = ranges.emplace_back(numbered<PlaneRange>(17 * i));
+    const auto vote = votes.emplace_back(numbered<PixelVote>(17 * i + 2));
+    const auto item = items.emplace_back(numbered<SweepItem>(17 * i + 5));
+    const auto block = blocks.emplace_back(numbered<SweepBlock>(17 * i + 9));
+    const auto window = windows.emplace_back(numbered<ReferenceWindow>(17 * i + 13));
+    const Words words = words_of(range.first, range.last, vote.correlation, vote.confidence, vote.plane, item.x, item.y,
+                                 item.plane, item.inverse_depth, block.x, block.y, block.item_begin, block.item_count,
+                                 window.sum, window.inverse_deviation);
     members.insert(members.end(), words.begin(), words.end());
   }
   const Buffer words = buffer_of(Words(members.size()));

@@ -13,46 +13,49 @@ namespace {
 constexpr float kUntested = -7.0F;
 constexpr std::int64_t kAll = 1 << 30;
 
+/// Block sizes that the stage uses, and one that no other shares.
+std::vector<BlockSize> blocks_of(SweepForm form) {
+  if (form == SweepForm::kLanes) return {{8, 8}, {4, 4}, {4, 2}};
+  return {{16, 16}, {8, 8}};
+}
+
 enum class Pass { kFirst, kSecond };
 
 class SweepDepthParity : public ParityTest {
  protected:
   /// Compares the batches of one pass of one case for all neighbors. most_items: of a batch.
-  static void compare(const WindowCase& input, SweepForm form, Pass pass, std::int64_t most_items) {
+  static void compare(const WindowCase& input, SweepForm form, BlockSize block, Pass pass, std::int64_t most_items) {
     const SweepTask task = input.task();
     const bool first = pass == Pass::kFirst;
     const int stride = first ? task.planes.refinement : 1;
     const auto ranges =
         first ? task.ranges : refine_ranges(sweep_planes(task, task.ranges, task.planes.refinement, {}), task.planes);
     const bool lanes = form == SweepForm::kLanes;
-    const int side = lanes ? kLaneBlockSide : kGroupBlockSide;
-    const Kernel sweep = kernel(lanes ? "sweep_depth_lanes" : "sweep_depth", input.constants(form));
+    const Kernel sweep = kernel(lanes ? "sweep_depth_lanes" : "sweep_depth", input.constants(form, block));
     const Buffer reference =
         lanes ? buffer_of(make_reference_texels(*task.reference, input.window)) : buffer_of(task.reference->pixels);
-    const Buffer windows =
-        buffer_of(in_whole_blocks(make_reference_windows(*task.reference, input.window), side).values);
-    const Buffer planes = buffer_of(task.planes.inverse_depth);
+    const Buffer windows = buffer_of(in_whole_blocks(make_reference_windows(*task.reference, input.window)).values);
     std::vector<Buffer> neighbors;
     for (const auto& image : task.neighbors)
       neighbors.push_back(lanes ? buffer_of(make_quads(*image)) : buffer_of(image->pixels));
-    SweepBatches batches(ranges, side, stride);
+    SweepBatches batches(ranges, task.planes.inverse_depth, block, stride);
     for (SweepBatch batch = batches.next(most_items, kAll); !batch.items.empty();
          batch = batches.next(most_items, kAll)) {
       const Buffer items = buffer_of(batch.items);
       const auto item_count = static_cast<std::int64_t>(batch.items.size());
-      const std::int64_t values = item_count * side * side;
+      const std::int64_t values = item_count * block.pixels();
       const Buffer ncc =
           buffer_of(std::vector<float>(static_cast<std::size_t>(values * task.neighbor_count()), kUntested));
       for (int neighbor = 0; neighbor < task.neighbor_count(); ++neighbor) {
         SweepParams params = window_params(task, neighbor);
         params.reference_stride = reference_texels_stride(input.width, input.window);
-        params.window_stride = whole_blocks(input.width, side);
+        params.window_stride = whole_blocks(input.width);
         params.item_count = static_cast<int>(item_count);
         params.ncc_offset = static_cast<int>(neighbor * values / 4);
         run(sweep, {lanes ? item_count : values}, params,
-            {items, planes, reference, windows, neighbors[static_cast<std::size_t>(neighbor)], ncc});
+            {items, reference, windows, neighbors[static_cast<std::size_t>(neighbor)], ncc});
       }
-      compare_values(task, input, ranges, batch, side, content<float>(ncc));
+      compare_values(task, input, ranges, batch, block, content<float>(ncc));
       if (HasFailure()) return;
     }
   }
@@ -60,7 +63,7 @@ class SweepDepthParity : public ParityTest {
  private:
   /// Compares what pixels test; the other values of a block are free.
   static void compare_values(const SweepTask& task, const WindowCase& input, const Grid<PlaneRange>& ranges,
-                             const SweepBatch& batch, int side, std::vector<float> on_device) {
+                             const SweepBatch& batch, BlockSize block, std::vector<float> on_device) {
     std::vector<float> twin(on_device.size(), kUntested);
     std::vector<bool> tested(on_device.size(), false);
     int tested_count = 0;
@@ -69,9 +72,9 @@ class SweepDepthParity : public ParityTest {
     std::size_t index = 0;
     for (int neighbor = 0; neighbor < task.neighbor_count(); ++neighbor) {
       for (const SweepItem& item : batch.items) {
-        for (int pixel = 0; pixel < side * side; ++pixel, ++index) {
-          const int x = item.x + pixel % side;
-          const int y = item.y + pixel / side;
+        for (int pixel = 0; pixel < block.pixels(); ++pixel, ++index) {
+          const int x = item.x + pixel % block.width;
+          const int y = item.y + pixel / block.width;
           if (!ranges.contains(x, y)) continue;
           const PlaneRange& range = ranges.at(x, y);
           const auto plane = static_cast<std::uint32_t>(item.plane);
@@ -86,7 +89,7 @@ class SweepDepthParity : public ParityTest {
     }
     for (std::size_t i = 0; i < tested.size(); ++i)
       if (!tested[i]) on_device[i] = kUntested;
-    ASSERT_TRUE(same_words(on_device, twin, side, input.name()));
+    ASSERT_TRUE(same_words(on_device, twin, block.width, input.name()));
     expect_share(tested_count, static_cast<std::int64_t>(tested.size()), 0.05, 0.95, "pixels that test planes");
     expect_share(seen_count, tested_count, 0.1, 1.0, "windows that neighbors see");
     expect_share(matching_count, tested_count, 0.005, 0.999, "windows that match");
@@ -95,7 +98,7 @@ class SweepDepthParity : public ParityTest {
 
 TEST_F(SweepDepthParity, EveryFormWindowAndModelGivesTheBytesOfTheTwin) {
   for (const WindowCase& input : window_cases()) {
-    for (const SweepForm form : input.forms()) compare(input, form, Pass::kFirst, kAll);
+    for (const SweepForm form : input.forms()) compare(input, form, blocks_of(form)[0], Pass::kFirst, kAll);
     if (HasFailure()) return;
   }
 }
@@ -103,16 +106,18 @@ TEST_F(SweepDepthParity, EveryFormWindowAndModelGivesTheBytesOfTheTwin) {
 TEST_F(SweepDepthParity, TheSecondPassGivesTheBytesOfTheTwin) {
   for (const WindowCase& input : window_cases()) {
     if (input.model == WindowModel::kAxis && input.flip) continue;  // finds almost nothing to refine
-    for (const SweepForm form : input.forms()) compare(input, form, Pass::kSecond, kAll);
+    for (const SweepForm form : input.forms()) compare(input, form, blocks_of(form)[1], Pass::kSecond, kAll);
     if (HasFailure()) return;
   }
 }
 
-TEST_F(SweepDepthParity, BatchesDoNotMatter) {
+TEST_F(SweepDepthParity, BlocksAndBatchesDoNotMatter) {
   const WindowCase input{5, WindowModel::kPlane, true, 67, 45, 21};
   for (const SweepForm form : input.forms()) {
-    compare(input, form, Pass::kFirst, 97);
-    compare(input, form, Pass::kSecond, 203);
+    for (const BlockSize block : blocks_of(form)) {
+      compare(input, form, block, Pass::kFirst, 1997);
+      compare(input, form, block, Pass::kSecond, 2003);
+    }
   }
 }
 

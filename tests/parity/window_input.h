@@ -42,11 +42,15 @@ struct WindowCase {
     if (model == WindowModel::kAxis) return {SweepForm::kGroups};
     return {SweepForm::kGroups, SweepForm::kLanes};
   }
-  [[nodiscard]] std::vector<SpecConstant> constants(SweepForm form) const {
+  [[nodiscard]] std::vector<SpecConstant> constants(SweepForm form, BlockSize block) const {
     std::vector<SpecConstant> constants = {
         {"kWindow", static_cast<std::uint32_t>(window)},
-        {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(window))}};
-    if (form == SweepForm::kGroups) constants.push_back({"kAxisModel", model == WindowModel::kAxis ? 1U : 0U});
+        {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(window))},
+        {"kBlockWidth", static_cast<std::uint32_t>(block.width)},
+        {"kBlockHeight", static_cast<std::uint32_t>(block.height)}};
+    if (form == SweepForm::kLanes) return constants;
+    constants.push_back({"kGroupSize", static_cast<std::uint32_t>(block.pixels())});
+    constants.push_back({"kAxisModel", model == WindowModel::kAxis ? 1U : 0U});
     return constants;
   }
 };

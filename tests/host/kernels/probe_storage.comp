@@ -13,7 +13,7 @@ layout(std430, binding = 5) writeonly buffer Words { uint words[]; };
 
 void main() {
   for (int i = 0; i < 3; ++i) {
-    int first = 16 * i;
+    int first = 17 * i;
     words[first] = ranges[i].first;
     words[first + 1] = ranges[i].last;
     words[first + 2] = floatBitsToUint(votes[i].correlation);
@@ -22,11 +22,12 @@ void main() {
     words[first + 5] = uint(items[i].x);
     words[first + 6] = uint(items[i].y);
     words[first + 7] = uint(items[i].plane);
-    words[first + 8] = uint(blocks[i].x);
-    words[first + 9] = uint(blocks[i].y);
-    words[first + 10] = uint(blocks[i].item_begin);
-    words[first + 11] = uint(blocks[i].item_count);
-    for (int channel = 0; channel < 3; ++channel) words[first + 12 + channel] = uint(windows[i].sum[channel]);
-    words[first + 15] = floatBitsToUint(windows[i].inverse_deviation);
+    words[first + 8] = floatBitsToUint(items[i].inverse_depth);
+    words[first + 9] = uint(blocks[i].x);
+    words[first + 10] = uint(blocks[i].y);
+    words[first + 11] = uint(blocks[i].item_begin);
+    words[first + 12] = uint(blocks[i].item_count);
+    for (int channel = 0; channel < 3; ++channel) words[first + 13 + channel] = uint(windows[i].sum[channel]);
+    words[first + 16] = floatBitsToUint(windows[i].inverse_deviation);
   }
 }
