@@ -14,21 +14,33 @@ namespace {
 
 constexpr std::int64_t kNccValues = 16LL << 20;  // room for a batch: 64 MiB, below any maxStorageBufferRange
 constexpr std::int64_t kMaxGroups = 65535;       // that any device allows
-constexpr std::int64_t kMaxPlanes =
-    1024;  // of a block: with 32 neighbors 32,768 rounds of vote_depth's loops. lavapipe
-           // stops the loops of an invocation after 65,535 rounds, without a word
+constexpr std::int64_t kLanesGroupSize = 16;     // invocations, each with an item
+// Planes of a block: with 32 neighbors 32,768 rounds of vote_depth's loops. lavapipe stops the loops of an invocation
+// after 65,535 rounds, without a word.
+constexpr std::int64_t kMaxPlanes = 1024;
 constexpr std::int64_t kLeastWindows = 1LL << 14;
 constexpr std::int64_t kStartWindows = 1LL << 18;
 
-constexpr std::int64_t kLanesGroupSize = 16;  // invocations, each with an item
+// Shared memory that sweep_depth takes: six words per sample, five per window of a row of samples.
+constexpr std::uint32_t shared_bytes(BlockSize block, int window) {
+  const int rows = block.height + window - 1;
+  return static_cast<std::uint32_t>(4 * rows * (6 * (block.width + window - 1) + 5 * block.width));
+}
 
 // Blocks of the second pass are smaller: the fewer pixels a block has, the fewer planes it tests that most of them
-// don't.
-constexpr BlockSize first_block(SweepForm form) {
-  return form == SweepForm::kLanes ? BlockSize{8, 8} : BlockSize{16, 16};
-}
+// don't. 8 x 8 fits what Vulkan promises of every device.
 constexpr BlockSize second_block(SweepForm form) {
   return form == SweepForm::kLanes ? BlockSize{4, 4} : BlockSize{8, 8};
+}
+static_assert(shared_bytes(second_block(SweepForm::kGroups), 15) <= 16384);
+
+BlockSize first_block(SweepForm form, int window, const DeviceInfo& device) {
+  if (form == SweepForm::kLanes) return {8, 8};
+  const BlockSize block{16, 16};
+  return shared_bytes(block, window) <= device.shared_memory_bytes &&
+                 static_cast<std::uint32_t>(block.pixels()) <= device.max_work_group_invocations
+             ? block
+             : second_block(form);
 }
 
 SweepParams make_sweep_params(const SweepTask& task, BlockSize block, std::size_t neighbor, int item_count) {
@@ -106,7 +118,7 @@ Expected<void> DepthStage::prepare_kernels(const SweepTask& task) {
   const SweepForm form = form_of(task);
   if (sweep_ && sweep_->form == form && sweep_->window == options.window && sweep_->model == options.window_model)
     return {};
-  auto first = make_pass(form, options, first_block(form));
+  auto first = make_pass(form, options, first_block(form, options.window, device_->info()));
   if (!first) return std::unexpected(first.error());
   auto second = make_pass(form, options, second_block(form));
   if (!second) return std::unexpected(second.error());

@@ -29,12 +29,12 @@ const int kPixels = kBlockWidth * kBlockHeight;
 const int kColumns = kBlockWidth + kWindow - 1;  // of samples
 const int kRows = kBlockHeight + kWindow - 1;
 
-// Of a row of samples: each sample, then sums along the row, which take a column less for each further pixel of a window.
-shared ivec3 row_b[kColumns * kRows];
-shared ivec2 row_products[kColumns * kRows];  // b * b, a * b
-shared ivec3 sum_b[kBlockWidth * kRows];
-shared ivec2 sum_products[kBlockWidth * kRows];
-shared bool row_inside[kColumns * kRows];
+// What is summed over a window: the channels of b, b * b and a * b. Arrays of one quantity, so that threads side by side
+// use different banks.
+const int kQuantities = 5;
+shared int samples[kQuantities][kColumns * kRows];
+shared bool inside[kColumns * kRows];
+shared int row_sums[kQuantities][kBlockWidth * kRows];
 
 // Clamped: blocks reach over the image, where no pixel asks for a window.
 ivec3 reference_sample(int x, int y) {
@@ -84,34 +84,33 @@ void main() {
     Projection at = project(p.warp, x, y, item.inverse_depth, p.neighbor_width, p.neighbor_height);
     ivec3 a = reference_sample(x, y);
     ivec3 b = neighbor_sample(at.u, at.v);
-    row_b[i] = b;
-    row_products[i] = ivec2(b.x * b.x + b.y * b.y + b.z * b.z, a.x * b.x + a.y * b.y + a.z * b.z);
-    row_inside[i] = at.inside;
+    samples[0][i] = b.x;
+    samples[1][i] = b.y;
+    samples[2][i] = b.z;
+    samples[3][i] = b.x * b.x + b.y * b.y + b.z * b.z;
+    samples[4][i] = a.x * b.x + a.y * b.y + a.z * b.z;
+    inside[i] = at.inside;
   }
   barrier();
   for (int i = thread; i < kBlockWidth * kRows; i += kPixels) {
     int first = i / kBlockWidth * kColumns + i % kBlockWidth;
-    ivec3 b = ivec3(0);
-    ivec2 products = ivec2(0);
-    for (int k = 0; k < kWindow; ++k) {
-      b += row_b[first + k];
-      products += row_products[first + k];
+    for (int quantity = 0; quantity < kQuantities; ++quantity) {
+      int sum = 0;
+      for (int k = 0; k < kWindow; ++k) sum += samples[quantity][first + k];
+      row_sums[quantity][i] = sum;
     }
-    sum_b[i] = b;
-    sum_products[i] = products;
   }
   barrier();
-  WindowSums sums = no_sums();
-  for (int k = 0; k < kWindow; ++k) {
-    int i = (row + k) * kBlockWidth + column;
-    sums.b += sum_b[i];
-    sums.bb += sum_products[i].x;
-    sums.ab += sum_products[i].y;
+  int sums[kQuantities];
+  for (int quantity = 0; quantity < kQuantities; ++quantity) {
+    sums[quantity] = 0;
+    for (int k = 0; k < kWindow; ++k) sums[quantity] += row_sums[quantity][(row + k) * kBlockWidth + column];
   }
   // A plane maps the window to a convex quadrilateral, so the corners decide for all of it.
   int corner = row * kColumns + column;
-  bool sees = row_inside[corner] && row_inside[corner + kWindow - 1] &&
-              row_inside[corner + (kWindow - 1) * kColumns] &&
-              row_inside[corner + (kWindow - 1) * (kColumns + 1)];
-  ncc_values[output_index] = sees ? ncc_from_sums(window, sums, kWindow * kWindow) : kNoNcc;
+  bool sees = inside[corner] && inside[corner + kWindow - 1] &&
+              inside[corner + (kWindow - 1) * kColumns] &&
+              inside[corner + (kWindow - 1) * (kColumns + 1)];
+  WindowSums window_sums = WindowSums(ivec3(sums[0], sums[1], sums[2]), sums[3], sums[4]);
+  ncc_values[output_index] = sees ? ncc_from_sums(window, window_sums, kWindow * kWindow) : kNoNcc;
 }
