@@ -1,4 +1,5 @@
-// Options of the depth stages, with the paper's values as defaults where it names them.
+// Options of the depth stages. The defaults were chosen by the experiments of docs/paper.md: window, min_votes,
+// refinement and window_model stand there under these names, threshold and step_pixels depart from the paper.
 #pragma once
 
 #include "engine/core/error.h"
@@ -13,10 +14,10 @@ enum class WindowModel {
 
 struct SweepOptions {
   int window = 5;            ///< side of the window, pixels, odd, 3..15 (paper 4.2)
-  float threshold = 0.6F;    ///< NCC above which a neighbor votes for a depth, 0..0.99 (paper 4.1)
+  float threshold = 0.5F;    ///< NCC above which a neighbor votes for a depth, 0..0.99; the paper: 0.6 (4.1)
   int min_votes = 2;         ///< votes that make a depth valid, 1..32 (paper 2.1)
   double depth_step = 0.0;   ///< distance of depth samples, scene units (the paper's 2.5 mm); 0 = automatic
-  double step_pixels = 0.5;  ///< automatic step: largest motion of the projection in a neighbor, pixels, 0.05..8
+  double step_pixels = 1.0;  ///< automatic step: largest motion of the projection in a neighbor, pixels, 0.05..8
   int refinement = 10;       ///< the second pass samples at 1 / refinement of the step; 1 = no second pass (paper 4.1)
   WindowModel window_model = WindowModel::kPlane;
 

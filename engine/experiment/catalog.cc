@@ -253,6 +253,7 @@ ReconstructOptions paper_options(const std::string& scene) {
                    .threshold = 0.6F,
                    .min_votes = 2,
                    .depth_step = 0.0025,
+                   .step_pixels = 0.5,
                    .refinement = 10,
                    .window_model = WindowModel::kPlane};
   return options;

@@ -58,7 +58,7 @@ constexpr const char* kLegend = R"(
 - Roughness: median of the second difference of depth along rows, in footprints of a pixel.
 - Depth error: median distance of the depths from the true surface; wrong: further than 1.25 mm.
 - Accuracy, completeness (within 1.25 mm) and F of the mesh as in Seitz et al. 2006, where the true surface is known.
-- Times are of the stages of the run, without the measuring.
+- Times are of the run alone, without the measuring.
 )";
 
 /// The head of a table.

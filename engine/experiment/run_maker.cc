@@ -6,6 +6,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "engine/core/clock.h"
+#include "engine/core/memory.h"
 #include "engine/core/version.h"
 #include "engine/experiment/pictures.h"
 #include "engine/io/file.h"
@@ -104,12 +106,23 @@ bool can_find_depth(const Scene& scene, const SelectViewsOptions& options) {
   return false;
 }
 
-void add_times(const RunReport& report, double& wall_seconds, double& cpu_seconds) {
-  for (const StageReport& stage : report.stages) {
-    wall_seconds += stage.wall_seconds;
-    cpu_seconds += stage.cpu_seconds;
+/// Adds the time of a part of the pipeline to a record.
+class RecordTimer {
+ public:
+  explicit RecordTimer(RunRecord& record)
+      : record_(record), wall_start_(wall_seconds()), cpu_start_(process_cpu_seconds()) {}
+  ~RecordTimer() {
+    record_.wall_seconds += wall_seconds() - wall_start_;
+    record_.cpu_seconds += process_cpu_seconds() - cpu_start_;
   }
-}
+  RecordTimer(const RecordTimer&) = delete;
+  RecordTimer& operator=(const RecordTimer&) = delete;
+
+ private:
+  RunRecord& record_;
+  double wall_start_;
+  double cpu_start_;
+};
 
 }  // namespace
 
@@ -159,9 +172,11 @@ Expected<void> RunMaker::make(const OpenScene& scene, const RunSettings& setting
   if (auto provided = provide_depth_maps(scene, settings, *workspace, record); !provided) return provided;
   RunReport report;
   SilentProgress silent(progress_);
-  if (auto fused = fuse_depth_maps(scene.scene, settings.options, backend_, *workspace, silent, report); !fused)
-    return fused;
-  add_times(report, record.wall_seconds, record.cpu_seconds);
+  {
+    const RecordTimer timer(record);
+    if (auto fused = fuse_depth_maps(scene.scene, settings.options, backend_, *workspace, silent, report); !fused)
+      return fused;
+  }
   record.peak_memory_bytes = peak_memory_bytes();
   record.voxel_size = report.voxel_size;
   record.min_confidence = report.min_confidence;
@@ -195,12 +210,15 @@ Expected<void> RunMaker::provide_depth_maps(const OpenScene& scene, const RunSet
   if (auto folder = make_folder(workspace.folder() / "depth"); !folder) return folder;
   RunReport report;
   SilentProgress silent(progress_);
-  if (auto computed = compute_depth_maps(scene.scene, settings.options, backend_, workspace, silent, report); !computed)
-    return computed;
+  {
+    const RecordTimer timer(record);
+    if (auto computed = compute_depth_maps(scene.scene, settings.options, backend_, workspace, silent, report);
+        !computed)
+      return computed;
+  }
   auto measured = measure_depth_maps(scene, settings.options, workspace, report);
   if (!measured) return std::unexpected(measured.error());
   record.depth = *measured;
-  add_times(report, record.wall_seconds, record.cpu_seconds);
   record.depth_cpu_seconds = record.cpu_seconds;
   RunRecord kept = record;
   kept.identity = identity;

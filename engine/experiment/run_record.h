@@ -14,7 +14,7 @@ struct RunRecord {
   std::string scene;
   std::string identity;  ///< JSON: all that the result depends on
   std::string device;
-  double wall_seconds = 0.0;  ///< of all stages; the measuring is not counted
+  double wall_seconds = 0.0;  ///< the measuring is not counted
   double cpu_seconds = 0.0;
   double depth_cpu_seconds = 0.0;  ///< of the depth maps' share
   std::uint64_t peak_memory_bytes = 0;

@@ -22,9 +22,9 @@ struct TempleOptions {
   int width = 640;       ///< pixels, 64..8192; the height is 3/4 of it
   double noise = 1.5;    ///< standard deviation of the sensor noise, gray levels, 0..64
   double texture = 1.0;  ///< strength of the stone texture, 0..4; 0 = plain plaster
-  double gloss = 0.0;    ///< strength of the highlights, 0..1; 0 = diffuse stone
-  Lighting lighting = Lighting::kFixed;
   std::uint64_t seed = 1;
+  double gloss = 0.0;  ///< strength of the highlights, 0..1; 0 = diffuse stone
+  Lighting lighting = Lighting::kFixed;
 
   /// Names the first option that is out of its range, and the range. kUsage.
   [[nodiscard]] Expected<void> check() const;

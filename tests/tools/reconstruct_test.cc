@@ -133,7 +133,7 @@ TEST_F(Reconstruct, ABudgetIsKeptAndLeavesEveryByteAlone) {
 
 TEST_F(Reconstruct, RunJsonTellsWhatWasDone) {
   const ProgramResult result =
-      run("reconstruct", "result", {"--device", "cpu", "--quiet", "--json", "--threshold", "0.5"});
+      run("reconstruct", "result", {"--device", "cpu", "--quiet", "--json", "--threshold", "0.75"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(result.out, file_bytes(below("result") / "run.json"));
@@ -142,7 +142,7 @@ TEST_F(Reconstruct, RunJsonTellsWhatWasDone) {
   ASSERT_FALSE(json.is_discarded()) << result.out;
   EXPECT_EQ("quorum " + json["version"].get<std::string>() + "\n", quorum_program({"--version"}).out);
   EXPECT_TRUE(json["device"].get<std::string>().starts_with("CPU"));
-  EXPECT_EQ(json["options"]["threshold"], 0.5);
+  EXPECT_EQ(json["options"]["threshold"], 0.75);
   EXPECT_EQ(json["options"]["depth_step"], "auto");
   EXPECT_EQ(json["scene"]["views"], 8);
   EXPECT_GT(json["volume"]["voxel_size"].get<double>(), 0.0);

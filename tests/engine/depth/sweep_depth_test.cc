@@ -65,7 +65,7 @@ TEST(SweepDepth, FindsTheSphere) {
       const double depth = map.depth.at(x, y);
       EXPECT_EQ(depth > 0, map.correlation.at(x, y) > 0);
       if (depth > 0) {
-        EXPECT_GT(map.correlation.at(x, y), 0.6F);
+        EXPECT_GT(map.correlation.at(x, y), SweepOptions{}.threshold);
         EXPECT_LE(map.correlation.at(x, y), 1.0F);
         EXPECT_GT(map.confidence.at(x, y), 0.0F);
         EXPECT_LE(map.confidence.at(x, y), 1.0F);
