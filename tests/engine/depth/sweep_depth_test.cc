@@ -197,7 +197,7 @@ TEST(SweepDepth, OneVoteIsNotEnough) {
 }
 
 TEST(Vote, FollowsTheFormulasOfThePaper) {
-  const VoteRule rule = make_vote_rule({}, 4);
+  const VoteRule rule = make_vote_rule({.threshold = 0.6F}, 4);
   const PixelVote result = vote(kNoVote, 0.9F + 0.7F + 0.8F, 3, 17, rule);
   EXPECT_EQ(result.plane, 17);
   EXPECT_NEAR(result.correlation, 0.8, 1e-6);

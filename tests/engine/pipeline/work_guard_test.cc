@@ -42,6 +42,7 @@ struct GuardedRun {
     const Workspace workspace = Workspace::open(folder.path() / "result").value();
     ReconstructOptions options;
     options.sweep.depth_step = 0.0025;
+    options.sweep.threshold = 0.6F;
     CpuBackend cpu({SimdLevel::kBaseline, 64, 16});
     LimitedBackend counting(cpu, std::size_t{1} << 30);
     Progress progress;
