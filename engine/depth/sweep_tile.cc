@@ -7,6 +7,7 @@
 #include "engine/depth/sweep_tile.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 
@@ -43,8 +44,6 @@ struct Workspace {
   std::int32_t window_sum[kQuantities][kMaxTileSide];
 
   // Of windows along the axes.
-  std::int32_t u[kColumns];  // position in the neighbor, 1/256 pixel
-  std::int32_t v[kColumns];
   std::uint32_t window_texel[(kMaxWindow + 1) * (kMaxWindow + 1)][kMaxTileSide];
   std::uint32_t along_red_blue[2][kMaxTileSide];  // of the row before and this one, interpolated along x
   std::uint32_t along_green[2][kMaxTileSide];
@@ -56,9 +55,10 @@ struct Part {
   int x, y, tile_x, tile_y, count_x, count_y;
 };
 
-/// Positions of one row of samples in the neighbor. x, y: reference pixel of the first. Same operations as project().
+/// Positions of one row of samples in the neighbor. x, y: reference pixel of the first. Inside are those that keep a
+/// margin (1/256 pixel) to the border of the image. Same operations as project().
 [[gnu::always_inline]] inline void warp_row(const PlaneWarp& warp, float inverse_depth, const PaddedImage& image, int x,
-                                            int y, int count, std::int32_t* inside, Workspace& work) {
+                                            int y, int count, int margin, std::int32_t* inside, Workspace& work) {
   const float* m = warp.rotation;
   const float fy = static_cast<float>(y);
   const float base_x = m[1] * fy + (m[2] + warp.offset[0] * inverse_depth);
@@ -67,8 +67,9 @@ struct Part {
   const float m0 = m[0];
   const float m3 = m[3];
   const float m6 = m[6];
-  const float limit_u = static_cast<float>((image.width - 1) * kPositionScale + 1);
-  const float limit_v = static_cast<float>((image.height - 1) * kPositionScale + 1);
+  const float least = static_cast<float>(margin);
+  const float limit_u = static_cast<float>((image.width - 1) * kPositionScale + 1 - margin);
+  const float limit_v = static_cast<float>((image.height - 1) * kPositionScale + 1 - margin);
   const int stride = image.stride();
   for (int i = 0; i < count; ++i) {
     const float fx = static_cast<float>(x + i);
@@ -79,12 +80,10 @@ struct Part {
     const float inverse_z = reciprocal(before ? pz : 1.0F);
     const float u = (px * inverse_z) * static_cast<float>(kPositionScale) + 0.5F;
     const float v = (py * inverse_z) * static_cast<float>(kPositionScale) + 0.5F;
-    const bool in = before & (u >= 0.0F) & (v >= 0.0F) & (u < limit_u) & (v < limit_v);
+    const bool in = before & (u >= least) & (v >= least) & (u < limit_u) & (v < limit_v);
     const int iu = static_cast<int>(in ? u : 0.0F);
     const int iv = static_cast<int>(in ? v : 0.0F);
     inside[i] = in ? -1 : 0;
-    work.u[i] = iu;
-    work.v[i] = iv;
     work.fraction_x[i] = iu & (kPositionScale - 1);
     work.fraction_y[i] = iv & (kPositionScale - 1);
     work.texel_index[i] = (iv >> kPositionBits) * stride + (iu >> kPositionBits);
@@ -147,10 +146,11 @@ template <int kWindow>
   }
 }
 
-/// NCC of a row of windows from their sums, and the votes that follow. is_seen(i): not 0 if the neighbor sees all of
-/// window i. Same operations as ncc_from_sums().
-template <int kWindow, typename IsSeen>
-[[gnu::always_inline]] inline void vote_row(int tile_x, int tile_y, int count, IsSeen is_seen, float threshold,
+/// NCC of a row of windows from their sums, and the votes that follow. corner: flags of the windows' four corners, not
+/// 0 where the neighbor sees it. Same operations as ncc_from_sums().
+template <int kWindow>
+[[gnu::always_inline]] inline void vote_row(int tile_x, int tile_y, int count,
+                                            const std::array<const std::int32_t*, 4>& corner, float threshold,
                                             Workspace& work) {
   constexpr double kSamples = kWindow * kWindow;
   const std::int32_t* a_red = work.reference_sum[0][tile_y] + tile_x;
@@ -159,6 +159,10 @@ template <int kWindow, typename IsSeen>
   const float* inverse_deviation = work.inverse_deviation[tile_y] + tile_x;
   float* ncc_sum = work.ncc_sum[tile_y] + tile_x;
   std::int32_t* votes = work.votes[tile_y] + tile_x;
+  const std::int32_t* upper_left = corner[0];
+  const std::int32_t* upper_right = corner[1];
+  const std::int32_t* lower_left = corner[2];
+  const std::int32_t* lower_right = corner[3];
   for (int i = 0; i < count; ++i) {
     const double red = work.window_sum[kRed][i];
     const double green = work.window_sum[kGreen][i];
@@ -169,7 +173,8 @@ template <int kWindow, typename IsSeen>
         float_from_integer(kSamples * work.window_sum[kSquares][i] - (red * red + green * green + blue * blue));
     float ncc = (covariance * inverse_deviation[i]) * reciprocal_sqrt(variance);
     ncc = ncc < 1.0F ? ncc : 1.0F;
-    const bool hit = (ncc > threshold) & (is_seen(i) != 0);
+    const std::int32_t seen = upper_left[i] & upper_right[i] & lower_left[i] & lower_right[i];
+    const bool hit = (ncc > threshold) & (seen != 0);
     ncc_sum[i] += hit ? ncc : 0.0F;
     votes[i] += hit ? 1 : 0;
   }
@@ -184,7 +189,7 @@ template <int kWindow>
   for (auto& sums : work.window_sum) std::fill_n(sums, part.count_x, 0);
   for (int row = 0; row < part.count_y + kWindow - 1; ++row) {
     std::int32_t* inside = work.inside[row];
-    warp_row(warp, inverse_depth, image, part.x - kRadius, part.y - kRadius + row, samples, inside, work);
+    warp_row(warp, inverse_depth, image, part.x - kRadius, part.y - kRadius + row, samples, 0, inside, work);
     read_texels(image, samples, work);
     interpolate_row(part.tile_y + row, part.tile_x, samples, shift, work);
     auto& entering = work.row_sum[row % (kWindow + 1)];
@@ -197,10 +202,8 @@ template <int kWindow>
     }
     if (row < kWindow - 1) continue;
     const std::int32_t* top = work.inside[row - (kWindow - 1)];
-    const auto corners_inside = [&](int i) {
-      return top[i] & top[i + kWindow - 1] & inside[i] & inside[i + kWindow - 1];
-    };
-    vote_row<kWindow>(part.tile_x, part.tile_y + row - (kWindow - 1), part.count_x, corners_inside, threshold, work);
+    vote_row<kWindow>(part.tile_x, part.tile_y + row - (kWindow - 1), part.count_x,
+                      {top, top + kWindow - 1, inside, inside + kWindow - 1}, threshold, work);
   }
 }
 
@@ -267,8 +270,6 @@ template <int kWindow>
   constexpr int kMargin = kWindow / 2 * kPositionScale;
   constexpr int kSpan = 16;
   if (image.width < kWindow || image.height < kWindow) return;
-  const int last_u = (image.width - 1) * kPositionScale - kMargin;
-  const int last_v = (image.height - 1) * kPositionScale - kMargin;
   std::int32_t* inside = work.inside[0];
   for (int row = 0; row < part.count_y; ++row) {
     const int y = part.y + row;
@@ -277,14 +278,10 @@ template <int kWindow>
       const PlaneRange* range = ranges.row(y) + part.x + begin;
       const auto tests_plane = [plane](const PlaneRange& r) { return plane >= r.first && plane <= r.last; };
       if (std::none_of(range, range + count, tests_plane)) continue;
-      warp_row(warp, inverse_depth, image, part.x + begin, y, count, inside, work);
-      for (int i = 0; i < count; ++i) {
-        const bool in = (work.u[i] >= kMargin) & (work.v[i] >= kMargin) & (work.u[i] <= last_u) & (work.v[i] <= last_v);
-        inside[i] &= in ? -1 : 0;
-      }
+      warp_row(warp, inverse_depth, image, part.x + begin, y, count, kMargin, inside, work);
       sum_axis_windows<kWindow>(image, inside, part.tile_x + begin, part.tile_y + row, count, shift, work);
-      vote_row<kWindow>(
-          part.tile_x + begin, part.tile_y + row, count, [inside](int i) { return inside[i]; }, threshold, work);
+      vote_row<kWindow>(part.tile_x + begin, part.tile_y + row, count, {inside, inside, inside, inside}, threshold,
+                        work);
     }
   }
 }
