@@ -198,7 +198,7 @@ void RunArguments::add_device_options(CLI::App& app) {
       ->expected(2)
       ->capture_default_str()
       ->group(group);
-  app.add_option("--simd", simd, "Instructions of the CPU sweep")
+  app.add_option("--simd", simd, "Instructions of the sweep and the fusion on the CPU")
       ->check(CLI::IsMember({"auto", "baseline", "avx2", "avx512"}))
       ->capture_default_str()
       ->group(group);

@@ -2,6 +2,7 @@
 // every neighbor, votes, and the best depth. Twin of shaders/sweep_depth.comp.
 #pragma once
 
+#include "engine/core/simd.h"
 #include "engine/depth/depth_map.h"
 #include "engine/depth/sweep_task.h"
 
@@ -14,12 +15,6 @@ float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane);
 
 /// Below every threshold: the neighbor does not see the window.
 constexpr float kNoNcc = -1.0F;
-
-/// Instructions that the sweep may use. All give the same bytes.
-enum class SimdLevel { kBaseline, kAvx2, kAvx512 };
-
-/// The most that this processor has.
-SimdLevel best_simd_level();
 
 /// How the CPU does its work; none of it changes a byte of the result.
 struct CpuSweepOptions {

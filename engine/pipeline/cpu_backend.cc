@@ -97,7 +97,7 @@ Expected<void> CpuBackend::integrate(const FusionView& view, const std::vector<s
   return timed("integrate", [&]() -> Expected<void> {
     quorum::integrate({view.map.depth, surface.cells, surface.weights, view.image}, find_slots(blocks, pool_.indices),
                       make_integrate_params(view.camera, view.map.depth.width, view.map.depth.height, grid_),
-                      pool_.voxels);
+                      options_.simd, pool_.voxels);
     return {};
   });
 }

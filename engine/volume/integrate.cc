@@ -1,3 +1,6 @@
+// How a block is filled: in phases over plain arrays, so that the compiler vectorizes all but reads and the last sums.
+// All voxels of the block are projected; those that land in a triangle go on; of these, those within the truncation;
+// and only they take weight and color. The whole is compiled for three instruction sets and chosen at run time.
 #include "engine/volume/integrate.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -10,66 +13,287 @@
 namespace quorum {
 namespace {
 
-/// A value at (fraction_x, fraction_y) in a cell, linear on the triangle that holds it.
-/// Twin: interpolate_cell in shaders/lib/cell.glsl.
-float interpolate_cell(bool split_03, bool second, float v0, float v1, float v2, float v3, float fraction_x,
-                       float fraction_y) {
-  if (split_03) {
-    return second ? v0 + (fraction_y * (v2 - v0) + fraction_x * (v3 - v2))
-                  : v0 + (fraction_x * (v1 - v0) + fraction_y * (v3 - v1));
-  }
-  return second ? v3 + ((1.0F - fraction_x) * (v2 - v3) + (1.0F - fraction_y) * (v1 - v3))
-                : v0 + (fraction_x * (v1 - v0) + fraction_y * (v2 - v0));
+/// What the phases know of a block's voxels. First of all of them, in the order of the pool; then the arrays hold the
+/// voxels that go on, one after the other.
+struct Workspace {
+  float u[kBlockVoxels];  // position in the view, pixels
+  float v[kBlockVoxels];
+  float depth[kBlockVoxels];          // along the optical axis
+  std::int32_t pixel[kBlockVoxels];   // index of the cell's first
+  std::uint32_t sides[kBlockVoxels];  // kSide… of the position in its cell
+
+  // Of those that go on.
+  std::int32_t voxel[kBlockVoxels];      // number in the block
+  std::uint32_t triangle[kBlockVoxels];  // kSideCount times the bits of the cell, and kSide… bits
+  float corner[4][kBlockVoxels];         // depths of the cell
+  std::int32_t signed_distance[kBlockVoxels];
+  std::int32_t kept[kBlockVoxels];
+
+  // Of those within the truncation.
+  std::uint32_t word[4][kBlockVoxels];  // weights of the cell, then texels of the image
+  std::int32_t texel_index[kBlockVoxels];
+  std::uint32_t texel_fraction_x[kBlockVoxels];  // 1/256 pixel
+  std::uint32_t texel_fraction_y[kBlockVoxels];
+  std::int32_t sum[kVoxelWords][kBlockVoxels];  // what is added to the voxel
+};
+
+/// Signed distance of a voxel that is not within the truncation.
+constexpr std::int32_t kFar = -2 * kDistanceScale;
+
+// On which side of the cell's diagonals a position lies.
+constexpr std::uint32_t kSideBelow03 = 1;  // in the second triangle of a cell that is split along 0-3
+constexpr std::uint32_t kSideBelow12 = 2;  // in the second triangle of a cell that is split along 1-2
+constexpr std::uint32_t kSideCount = 4;
+
+constexpr bool is_split_03(std::uint32_t triangle) { return (triangle & kCellSplitAlong03 * kSideCount) != 0; }
+constexpr bool is_second(std::uint32_t triangle) {
+  return (triangle & (is_split_03(triangle) ? kSideBelow03 : kSideBelow12)) != 0;
 }
 
-void integrate_voxel(const WeightedSurface& surface, const IntegrateParams& params, int x, int y, int z, Voxel& voxel) {
-  const float fx = static_cast<float>(x);
-  const float fy = static_cast<float>(y);
-  const float fz = static_cast<float>(z);
+/// Bit i: whether Workspace::triangle i is one that the surface has.
+constexpr std::uint32_t kExists = [] {
+  std::uint32_t bits = 0;
+  for (std::uint32_t triangle = 0; triangle < 32; ++triangle) {
+    const std::uint32_t cell = triangle / kSideCount;
+    const bool exists = (cell & (is_second(triangle) ? kCellSecondTriangle : kCellFirstTriangle)) != 0;
+    bits |= exists ? 1U << triangle : 0U;
+  }
+  return bits;
+}();
+
+/// A value at (fraction_x, fraction_y) in a cell, linear on the triangle that holds it.
+/// Twin: interpolate_cell in shaders/lib/cell.glsl.
+[[gnu::always_inline]] inline float interpolate_cell(bool split_03, bool second, float v0, float v1, float v2, float v3,
+                                                     float fraction_x, float fraction_y) {
+  const float split_03_value = second ? v0 + (fraction_y * (v2 - v0) + fraction_x * (v3 - v2))
+                                      : v0 + (fraction_x * (v1 - v0) + fraction_y * (v3 - v1));
+  const float split_12_value = second ? v3 + ((1.0F - fraction_x) * (v2 - v3) + (1.0F - fraction_y) * (v1 - v3))
+                                      : v0 + (fraction_x * (v1 - v0) + fraction_y * (v2 - v0));
+  return split_03 ? split_03_value : split_12_value;
+}
+
+/// Projects all voxels of the block whose first one is (x, y, z). Those that the view does not see get the last pixel,
+/// which has no triangle.
+[[gnu::always_inline]] inline void project_block(const IntegrateParams& params, int x, int y, int z, Workspace& work) {
+  constexpr int kLayer = kBlockSide * kBlockSide;
+  float column[kLayer];
+  float row[kLayer];
+  for (int i = 0; i < kLayer; ++i) {
+    column[i] = static_cast<float>(x + i % kBlockSide);
+    row[i] = static_cast<float>(y + i / kBlockSide);
+  }
   const float* p = params.projection;
-  const float pz = p[8] * fx + (p[9] * fy + (p[10] * fz + p[11]));
-  if (!(pz > 0.0F)) return;
-  const float px = p[0] * fx + (p[1] * fy + (p[2] * fz + p[3]));
-  const float py = p[4] * fx + (p[5] * fy + (p[6] * fz + p[7]));
-  const float inverse_z = reciprocal(pz);
-  const float u = px * inverse_z;
-  const float v = py * inverse_z;
-  if (!(u >= 0.0F && v >= 0.0F && u < static_cast<float>(params.width - 1) &&
-        v < static_cast<float>(params.height - 1)))
-    return;
-  const int column = static_cast<int>(u);
-  const int row = static_cast<int>(v);
-  const float fraction_x = u - static_cast<float>(column);
-  const float fraction_y = v - static_cast<float>(row);
+  const float limit_u = static_cast<float>(params.width - 1);
+  const float limit_v = static_cast<float>(params.height - 1);
+  const int width = params.width;
+  const int last_pixel = params.width * params.height - 1;
+  for (int layer = 0; layer < kBlockSide; ++layer) {
+    const float fz = static_cast<float>(z + layer);
+    const float base_x = p[2] * fz + p[3];
+    const float base_y = p[6] * fz + p[7];
+    const float base_z = p[10] * fz + p[11];
+    const float p0 = p[0], p1 = p[1], p4 = p[4], p5 = p[5], p8 = p[8], p9 = p[9];
+    float* layer_u = work.u + layer * kLayer;
+    float* layer_v = work.v + layer * kLayer;
+    float* layer_depth = work.depth + layer * kLayer;
+    std::int32_t* layer_pixel = work.pixel + layer * kLayer;
+    std::uint32_t* layer_sides = work.sides + layer * kLayer;
+    for (int i = 0; i < kLayer; ++i) {
+      const float pz = p8 * column[i] + (p9 * row[i] + base_z);
+      const float px = p0 * column[i] + (p1 * row[i] + base_x);
+      const float py = p4 * column[i] + (p5 * row[i] + base_y);
+      const bool before = pz > 0.0F;
+      const float inverse_z = reciprocal(before ? pz : 1.0F);
+      const float u = px * inverse_z;
+      const float v = py * inverse_z;
+      const bool in = before & (u >= 0.0F) & (v >= 0.0F) & (u < limit_u) & (v < limit_v);
+      const int cell_x = static_cast<int>(in ? u : 0.0F);
+      const int cell_y = static_cast<int>(in ? v : 0.0F);
+      const float fraction_x = u - static_cast<float>(cell_x);
+      const float fraction_y = v - static_cast<float>(cell_y);
+      layer_u[i] = u;
+      layer_v[i] = v;
+      layer_depth[i] = pz;
+      layer_pixel[i] = in ? cell_y * width + cell_x : last_pixel;
+      layer_sides[i] =
+          (fraction_x < fraction_y ? kSideBelow03 : 0U) | (fraction_x + fraction_y > 1.0F ? kSideBelow12 : 0U);
+    }
+  }
+}
 
-  const std::uint32_t cell = surface.cells.at(column, row);
-  const bool split_03 = (cell & kCellSplitAlong03) != 0;
-  const bool second = split_03 ? fraction_x < fraction_y : fraction_x + fraction_y > 1.0F;
-  if ((cell & (second ? kCellSecondTriangle : kCellFirstTriangle)) == 0) return;
-  const auto on_triangle = [&](const auto& grid) {
-    return interpolate_cell(split_03, second, static_cast<float>(grid.at(column, row)),
-                            static_cast<float>(grid.at(column + 1, row)), static_cast<float>(grid.at(column, row + 1)),
-                            static_cast<float>(grid.at(column + 1, row + 1)), fraction_x, fraction_y);
-  };
+/// Keeps the voxels that land in a triangle, and reads its cell's depths. Returns how many.
+[[gnu::always_inline]] inline int keep_on_surface(const WeightedSurface& surface, Workspace& work) {
+  const std::uint32_t* cells = surface.cells.values.data();
+  int count = 0;
+  for (int i = 0; i < kBlockVoxels; ++i) {
+    const std::uint32_t triangle = cells[work.pixel[i]] * kSideCount + work.sides[i];
+    work.voxel[count] = i;
+    work.triangle[count] = triangle;
+    count += static_cast<int>(kExists >> triangle & 1U);
+  }
+  const std::ptrdiff_t width = surface.depth.width;
+  for (int i = 0; i < count; ++i) {
+    const int from = work.voxel[i];
+    work.u[i] = work.u[from];
+    work.v[i] = work.v[from];
+    work.depth[i] = work.depth[from];
+    work.pixel[i] = work.pixel[from];
+    const float* depth = surface.depth.values.data() + work.pixel[i];
+    work.corner[0][i] = depth[0];
+    work.corner[1][i] = depth[1];
+    work.corner[2][i] = depth[width];
+    work.corner[3][i] = depth[width + 1];
+  }
+  return count;
+}
 
-  const float ray_x = (u - params.principal_x) * params.inverse_focal_x;
-  const float ray_y = (v - params.principal_y) * params.inverse_focal_y;
-  const float ray_squared = ray_x * ray_x + (ray_y * ray_y + 1.0F);
-  const float ray_length = ray_squared * reciprocal_sqrt(ray_squared);
-  const float distance = ((on_triangle(surface.depth) - pz) * ray_length) * params.inverse_truncation;
-  if (!(distance >= -kBehindShare && distance <= 1.0F)) return;
-  const float scale = static_cast<float>(kDistanceScale);
-  const int signed_distance = static_cast<int>(distance * scale + (scale + 0.5F)) - kDistanceScale;
-  const int weight = static_cast<int>(on_triangle(surface.weights) + 0.5F);
+/// Signed distance of the first count voxels.
+[[gnu::always_inline]] inline void measure_distances(const IntegrateParams& params, int count, Workspace& work) {
+  constexpr float kScale = static_cast<float>(kDistanceScale);
+  const float principal_x = params.principal_x;
+  const float principal_y = params.principal_y;
+  const float inverse_focal_x = params.inverse_focal_x;
+  const float inverse_focal_y = params.inverse_focal_y;
+  const float inverse_truncation = params.inverse_truncation;
+  for (int i = 0; i < count; ++i) {
+    const float u = work.u[i];
+    const float v = work.v[i];
+    const float fraction_x = u - static_cast<float>(static_cast<int>(u));
+    const float fraction_y = v - static_cast<float>(static_cast<int>(v));
+    const float ray_x = (u - principal_x) * inverse_focal_x;
+    const float ray_y = (v - principal_y) * inverse_focal_y;
+    const float ray_squared = ray_x * ray_x + (ray_y * ray_y + 1.0F);
+    const float ray_length = ray_squared * reciprocal_sqrt(ray_squared);
+    const float surface_depth =
+        interpolate_cell(is_split_03(work.triangle[i]), is_second(work.triangle[i]), work.corner[0][i],
+                         work.corner[1][i], work.corner[2][i], work.corner[3][i], fraction_x, fraction_y);
+    const float distance = ((surface_depth - work.depth[i]) * ray_length) * inverse_truncation;
+    const bool near = (distance >= -kBehindShare) & (distance <= 1.0F);
+    const float near_distance = near ? distance : 0.0F;
+    const int signed_distance = static_cast<int>(near_distance * kScale + (kScale + 0.5F)) - kDistanceScale;
+    work.signed_distance[i] = near ? signed_distance : kFar;
+  }
+}
 
-  const Sample sample = sample_bilinear(surface.image, static_cast<int>(u * static_cast<float>(kPositionScale) + 0.5F),
-                                        static_cast<int>(v * static_cast<float>(kPositionScale) + 0.5F), 0);
-  const auto color = [](int value) { return std::min((value + 2048 + 8) >> 4, 255); };
-  voxel.weight += weight;
-  voxel.distance += weight * signed_distance;
-  voxel.color[0] += weight * color(sample.red);
-  voxel.color[1] += weight * color(sample.green);
-  voxel.color[2] += weight * color(sample.blue);
+/// Keeps, of the first count voxels, those within the truncation, and reads the weights of their cells. Returns how
+/// many.
+[[gnu::always_inline]] inline int keep_near(const WeightedSurface& surface, int count, Workspace& work) {
+  int near = 0;
+  for (int i = 0; i < count; ++i) {
+    work.kept[near] = i;
+    near += work.signed_distance[i] != kFar ? 1 : 0;
+  }
+  const std::ptrdiff_t width = surface.weights.width;
+  for (int i = 0; i < near; ++i) {
+    const int from = work.kept[i];
+    work.voxel[i] = work.voxel[from];
+    work.triangle[i] = work.triangle[from];
+    work.u[i] = work.u[from];
+    work.v[i] = work.v[from];
+    work.signed_distance[i] = work.signed_distance[from];
+    const std::uint32_t* weights = surface.weights.values.data() + work.pixel[from];
+    work.word[0][i] = weights[0];
+    work.word[1][i] = weights[1];
+    work.word[2][i] = weights[width];
+    work.word[3][i] = weights[width + 1];
+  }
+  return near;
+}
+
+/// Weights and weighted distances of the first count voxels, and where their colors lie in the image.
+[[gnu::always_inline]] inline void weigh(const PaddedImage& image, int count, Workspace& work) {
+  const int stride = image.stride();
+  for (int i = 0; i < count; ++i) {
+    const float u = work.u[i];
+    const float v = work.v[i];
+    const float fraction_x = u - static_cast<float>(static_cast<int>(u));
+    const float fraction_y = v - static_cast<float>(static_cast<int>(v));
+    const auto corner = [&](int index) { return static_cast<float>(static_cast<std::int32_t>(work.word[index][i])); };
+    const int weight =
+        static_cast<int>(interpolate_cell(is_split_03(work.triangle[i]), is_second(work.triangle[i]), corner(0),
+                                          corner(1), corner(2), corner(3), fraction_x, fraction_y) +
+                         0.5F);
+    const int iu = static_cast<int>(u * static_cast<float>(kPositionScale) + 0.5F);
+    const int iv = static_cast<int>(v * static_cast<float>(kPositionScale) + 0.5F);
+    work.texel_index[i] = (iv >> kPositionBits) * stride + (iu >> kPositionBits);
+    work.texel_fraction_x[i] = static_cast<std::uint32_t>(iu & (kPositionScale - 1));
+    work.texel_fraction_y[i] = static_cast<std::uint32_t>(iv & (kPositionScale - 1));
+    work.sum[0][i] = weight;
+    work.sum[1][i] = weight * work.signed_distance[i];
+  }
+}
+
+/// Weighted colors of the first count voxels.
+[[gnu::always_inline]] inline void color(const PaddedImage& image, int count, Workspace& work) {
+  const std::ptrdiff_t stride = image.stride();
+  for (int i = 0; i < count; ++i) {
+    const Rgba* texel = image.pixels.data() + work.texel_index[i];
+    work.word[0][i] = texel[0];
+    work.word[1][i] = texel[1];
+    work.word[2][i] = texel[stride];
+    work.word[3][i] = texel[stride + 1];
+  }
+  for (int i = 0; i < count; ++i) {
+    const Sample sample = interpolate_texels(work.word[0][i], work.word[1][i], work.word[2][i], work.word[3][i],
+                                             work.texel_fraction_x[i], work.texel_fraction_y[i], kSampleShift);
+    const auto in_8_bits = [](std::int32_t value) { return std::min((value + 2048 + 8) >> 4, 255); };
+    work.sum[2][i] = work.sum[0][i] * in_8_bits(sample.red);
+    work.sum[3][i] = work.sum[0][i] * in_8_bits(sample.green);
+    work.sum[4][i] = work.sum[0][i] * in_8_bits(sample.blue);
+  }
+}
+
+void add_to_block(int count, const Workspace& work, Voxel* block) {
+  for (int i = 0; i < count; ++i) {
+    Voxel& voxel = block[work.voxel[i]];
+    voxel.weight += work.sum[0][i];
+    voxel.distance += work.sum[1][i];
+    for (int channel = 0; channel < 3; ++channel) voxel.color[channel] += work.sum[2 + channel][i];
+  }
+}
+
+/// The block whose first voxel is (x, y, z).
+[[gnu::always_inline]] inline void integrate_block_body(const WeightedSurface& surface, const IntegrateParams& params,
+                                                        int x, int y, int z, Voxel* block) {
+  Workspace work;
+  project_block(params, x, y, z, work);
+  const int on_surface = keep_on_surface(surface, work);
+  measure_distances(params, on_surface, work);
+  const int near = keep_near(surface, on_surface, work);
+  weigh(surface.image, near, work);
+  color(surface.image, near, work);
+  add_to_block(near, work, block);
+}
+
+using BlockFunction = void (*)(const WeightedSurface&, const IntegrateParams&, int, int, int, Voxel*);
+
+void integrate_block_baseline(const WeightedSurface& surface, const IntegrateParams& params, int x, int y, int z,
+                              Voxel* block) {
+  integrate_block_body(surface, params, x, y, z, block);
+}
+
+#ifdef __x86_64__
+[[gnu::target("arch=x86-64-v3")]] void integrate_block_avx2(const WeightedSurface& surface,
+                                                            const IntegrateParams& params, int x, int y, int z,
+                                                            Voxel* block) {
+  integrate_block_body(surface, params, x, y, z, block);
+}
+
+[[gnu::target("arch=x86-64-v4,prefer-vector-width=512")]] void integrate_block_avx512(const WeightedSurface& surface,
+                                                                                      const IntegrateParams& params,
+                                                                                      int x, int y, int z,
+                                                                                      Voxel* block) {
+  integrate_block_body(surface, params, x, y, z, block);
+}
+#endif
+
+BlockFunction choose_block_function(SimdLevel simd) {
+#ifdef __x86_64__
+  if (simd == SimdLevel::kAvx512) return integrate_block_avx512;
+  if (simd == SimdLevel::kAvx2) return integrate_block_avx2;
+#endif
+  static_cast<void>(simd);
+  return integrate_block_baseline;
 }
 
 }  // namespace
@@ -109,16 +333,16 @@ std::vector<BlockSlot> find_slots(const std::vector<std::uint32_t>& blocks, cons
 }
 
 void integrate(const WeightedSurface& surface, const std::vector<BlockSlot>& list, const IntegrateParams& params,
-               std::vector<Voxel>& voxels) {
+               SimdLevel simd, std::vector<Voxel>& voxels) {
+  QUORUM_CHECK_LE(static_cast<int>(simd), static_cast<int>(best_simd_level()));
+  const BlockFunction integrate_block = choose_block_function(simd);
   tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t entry) {
     const auto index = static_cast<int>(list[entry].index);
     const int x = index % params.blocks[0] * kBlockSide;
     const int y = index / params.blocks[0] % params.blocks[1] * kBlockSide;
     const int z = index / (params.blocks[0] * params.blocks[1]) * kBlockSide;
-    Voxel* voxel = voxels.data() + static_cast<std::size_t>(list[entry].slot) * kBlockVoxels;
-    for (int dz = 0; dz < kBlockSide; ++dz)
-      for (int dy = 0; dy < kBlockSide; ++dy)
-        for (int dx = 0; dx < kBlockSide; ++dx) integrate_voxel(surface, params, x + dx, y + dy, z + dz, *voxel++);
+    integrate_block(surface, params, x, y, z,
+                    voxels.data() + static_cast<std::size_t>(list[entry].slot) * kBlockVoxels);
   });
 }
 

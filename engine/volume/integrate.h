@@ -7,13 +7,14 @@
 
 #include "engine/camera/camera.h"
 #include "engine/core/grid.h"
+#include "engine/core/simd.h"
 #include "engine/image/padded_image.h"
 #include "engine/volume/voxel_grid.h"
 
 namespace quorum {
 
-/// One view's surface as the volume takes it. All of the view's size; cells from range_surface, weights from
-/// weigh_surface.
+/// One view's surface as the volume takes it. All of the view's size; cells from range_surface (the last column and row
+/// have no triangles), weights from weigh_surface.
 struct WeightedSurface {
   const Grid<float>& depth;
   const Grid<std::uint32_t>& cells;
@@ -35,7 +36,8 @@ std::vector<BlockSlot> find_slots(const std::vector<std::uint32_t>& blocks, cons
 
 /// Adds the surface to the listed blocks of the pool. A voxel takes it if its center projects into a triangle and lies
 /// within the truncation before it or kBehindShare of the truncation behind it.
+/// Equal at every SIMD level, byte by byte.
 void integrate(const WeightedSurface& surface, const std::vector<BlockSlot>& list, const IntegrateParams& params,
-               std::vector<Voxel>& voxels);
+               SimdLevel simd, std::vector<Voxel>& voxels);
 
 }  // namespace quorum

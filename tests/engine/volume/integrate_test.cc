@@ -40,7 +40,7 @@ std::vector<Voxel> integrate_map(const Camera& camera, const Grid<float>& depth,
   const auto blocks = all_blocks(grid);
   std::vector<Voxel> voxels(blocks.size() * kBlockVoxels);
   integrate({depth, cells, Grid<std::uint32_t>(kWidth, kHeight, kWeight), pad_image(image)}, find_slots(blocks, blocks),
-            make_integrate_params(camera, kWidth, kHeight, grid), voxels);
+            make_integrate_params(camera, kWidth, kHeight, grid), best_simd_level(), voxels);
   return voxels;
 }
 
@@ -106,38 +106,50 @@ TEST(Integrate, ColorsComeFromTheImage) {
   EXPECT_GT(seen, 3000);
 }
 
-TEST(Integrate, TheOrderOfViewsDoesNotMatterAndSumsAddUp) {
+/// All voxels around a sphere after the given of its three views.
+std::vector<Voxel> fuse_sphere(std::initializer_list<std::size_t> order, SimdLevel simd = best_simd_level()) {
   const SphereScene sphere = make_sphere_scene(3, kWidth, kHeight, true, 1);
   FusionOptions options;
   options.voxel_size = 0.1;
   const VoxelGrid grid = make_voxel_grid(sphere.scene, options).value();
   const auto blocks = all_blocks(grid);
-  const auto fuse = [&](std::initializer_list<std::size_t> order) {
-    std::vector<Voxel> voxels(blocks.size() * kBlockVoxels);
-    for (const std::size_t index : order) {
-      const View& view = sphere.scene.views[index];
-      Grid<float> depth(kWidth, kHeight);
-      Grid<std::uint32_t> weights(kWidth, kHeight);
-      for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
-          depth.at(x, y) = static_cast<float>(sphere_depth(view, x, y));
-          weights.at(x, y) = static_cast<std::uint32_t>(1 + (x * 7 + y * 13) % 255);
-        }
+  std::vector<Voxel> voxels(blocks.size() * kBlockVoxels);
+  for (const std::size_t index : order) {
+    const View& view = sphere.scene.views[index];
+    Grid<float> depth(kWidth, kHeight);
+    Grid<std::uint32_t> weights(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        depth.at(x, y) = static_cast<float>(sphere_depth(view, x, y));
+        weights.at(x, y) = static_cast<std::uint32_t>(1 + (x * 7 + y * 13) % 255);
       }
-      const auto cells = range_surface(depth, make_range_surface_params(view.camera, kWidth, kHeight, options));
-      integrate({depth, cells, weights, pad_image(sphere.images[index])}, find_slots(blocks, blocks),
-                make_integrate_params(view.camera, kWidth, kHeight, grid), voxels);
     }
-    return voxels;
-  };
-  const auto equal = [](const Voxel& a, const Voxel& b) {
-    return a.weight == b.weight && a.distance == b.distance && std::ranges::equal(a.color, b.color);
-  };
-  const auto forward = fuse({0, 1, 2});
-  EXPECT_TRUE(std::ranges::equal(forward, fuse({2, 0, 1}), equal));
-  const auto a = fuse({0});
-  const auto b = fuse({1});
-  const auto both = fuse({0, 1});
+    const auto cells = range_surface(depth, make_range_surface_params(view.camera, kWidth, kHeight, options));
+    integrate({depth, cells, weights, pad_image(sphere.images[index])}, find_slots(blocks, blocks),
+              make_integrate_params(view.camera, kWidth, kHeight, grid), simd, voxels);
+  }
+  return voxels;
+}
+
+bool equal(const Voxel& a, const Voxel& b) {
+  return a.weight == b.weight && a.distance == b.distance && std::ranges::equal(a.color, b.color);
+}
+
+TEST(Integrate, InstructionsDoNotChangeTheBytes) {
+  const auto expected = fuse_sphere({0, 1, 2}, SimdLevel::kBaseline);
+  EXPECT_GT(std::ranges::count_if(expected, [](const Voxel& voxel) { return voxel.weight > 0; }), 1000);
+  for (const SimdLevel simd : {SimdLevel::kAvx2, SimdLevel::kAvx512}) {
+    if (simd > best_simd_level()) continue;
+    EXPECT_TRUE(std::ranges::equal(fuse_sphere({0, 1, 2}, simd), expected, equal)) << static_cast<int>(simd);
+  }
+}
+
+TEST(Integrate, TheOrderOfViewsDoesNotMatterAndSumsAddUp) {
+  const auto forward = fuse_sphere({0, 1, 2});
+  EXPECT_TRUE(std::ranges::equal(forward, fuse_sphere({2, 0, 1}), equal));
+  const auto a = fuse_sphere({0});
+  const auto b = fuse_sphere({1});
+  const auto both = fuse_sphere({0, 1});
   int shared = 0;
   for (std::size_t i = 0; i < both.size(); ++i) {
     EXPECT_EQ(both[i].weight, a[i].weight + b[i].weight);
@@ -166,13 +178,13 @@ TEST(Integrate, OnlyListedBlocksAreTouched) {
   const PaddedImage image = pad_image(ColorImage(kWidth, kHeight));
   const auto params = make_integrate_params(camera, kWidth, kHeight, grid);
   std::vector<Voxel> voxels(3 * kBlockVoxels);
-  integrate({depth, cells, weights, image}, {}, params, voxels);
+  integrate({depth, cells, weights, image}, {}, params, best_simd_level(), voxels);
   const auto seen_in = [&](std::ptrdiff_t slot) {
     return std::count_if(voxels.begin() + slot * kBlockVoxels, voxels.begin() + (slot + 1) * kBlockVoxels,
                          [](const Voxel& voxel) { return voxel.weight > 0; });
   };
   for (const std::ptrdiff_t slot : {0, 1, 2}) EXPECT_EQ(seen_in(slot), 0);
-  integrate({depth, cells, weights, image}, {{grid.block_index(2, 2, 1), 1}}, params, voxels);
+  integrate({depth, cells, weights, image}, {{grid.block_index(2, 2, 1), 1}}, params, best_simd_level(), voxels);
   EXPECT_EQ(seen_in(0), 0);
   EXPECT_GT(seen_in(1), 100);
   EXPECT_EQ(seen_in(2), 0);
