@@ -25,55 +25,6 @@ void add_sample(WindowSums& sums, const Sample& a, const Sample& b) {
   sums.ab += a.red * b.red + a.green * b.green + a.blue * b.blue;
 }
 
-/// Planes of a pass that a tile tests, each with the part of the tile where some pixel does.
-struct TilePlanes {
-  std::vector<TilePlane> planes;
-  std::uint64_t tests = 0;  ///< pixel · depth that the ranges ask for
-
-  void collect(const Grid<PlaneRange>& ranges, const Tile& tile, int stride) {
-    const uint step = static_cast<uint>(stride);
-    uint first = ~0U;
-    uint last = 0;
-    tests = 0;
-    for_each_range(ranges, tile, [&](int, int, const PlaneRange& range) {
-      first = std::min(first, range.first);
-      last = std::max(last, range.last);
-      tests += (range.last - range.first) / step + 1;
-    });
-    planes.clear();
-    if (first > last) return;
-    for (uint plane = first; plane <= last; plane += step)
-      planes.push_back({static_cast<int>(plane), tile.x_end, tile.y_end, tile.x, tile.y});
-    for_each_range(ranges, tile, [&](int x, int y, const PlaneRange& range) {
-      for (uint plane = first + (range.first - first + step - 1) / step * step; plane <= range.last; plane += step) {
-        TilePlane& part = planes[(plane - first) / step];
-        part.x = std::min(part.x, x);
-        part.y = std::min(part.y, y);
-        part.x_end = std::max(part.x_end, x + 1);
-        part.y_end = std::max(part.y_end, y + 1);
-      }
-    });
-    std::erase_if(planes, [](const TilePlane& part) { return part.x >= part.x_end; });
-  }
-
-  /// Samples of one neighbor that sweep_tile interpolates.
-  [[nodiscard]] std::uint64_t samples(int window) const {
-    std::uint64_t total = 0;
-    for (const TilePlane& part : planes)
-      total += static_cast<std::uint64_t>(part.x_end - part.x + window - 1) *
-               static_cast<std::uint64_t>(part.y_end - part.y + window - 1);
-    return total;
-  }
-
- private:
-  template <typename Visit>
-  static void for_each_range(const Grid<PlaneRange>& ranges, const Tile& tile, Visit visit) {
-    for (int y = tile.y; y < tile.y_end; ++y)
-      for (int x = tile.x; x < tile.x_end; ++x)
-        if (const PlaneRange& range = ranges.at(x, y); range.first <= range.last) visit(x, y, range);
-  }
-};
-
 }  // namespace
 
 float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane) {
@@ -113,8 +64,6 @@ float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane) {
 Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& ranges, int stride,
                              const CpuSweepOptions& cpu, PassWork* work) {
   QUORUM_CHECK_EQ(ranges.width, task.reference->width);
-  QUORUM_CHECK_LE(cpu.tile_width, kMaxTileSide);
-  QUORUM_CHECK_LE(cpu.tile_height, kMaxTileSide);
   const double cpu_start = foreground_cpu_seconds();
   const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
   const int window = task.options.window;
@@ -130,12 +79,12 @@ Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& rang
         const Tile tile{column * cpu.tile_width, row * cpu.tile_height,
                         std::min((column + 1) * cpu.tile_width, ranges.width),
                         std::min((row + 1) * cpu.tile_height, ranges.height)};
-        tile_planes.collect(ranges, tile, stride);
-        if (tile_planes.planes.empty()) continue;
-        sweep_tile(task, ranges, tile, tile_planes.planes, rule, cpu.simd, votes);
+        tile_planes.collect(ranges, tile, stride, window);
+        if (tile_planes.planes().empty()) continue;
+        sweep_tile(task, ranges, tile, tile_planes.planes(), rule, cpu.simd, votes);
         const bool shared = task.options.window_model == WindowModel::kPlane;
-        tests += tile_planes.tests;
-        samples += shared ? tile_planes.samples(window) : tile_planes.tests * static_cast<uint>(window * window);
+        tests += tile_planes.tests();
+        samples += shared ? tile_planes.samples(window) : tile_planes.tests() * static_cast<uint>(window * window);
       }
     }
   });

@@ -103,35 +103,20 @@ struct Part {
   }
 }
 
-/// Interpolates a row of samples; same values as sample_bilinear(). Red and blue share a word along x: the exact
-/// results fit 16 bits each, so arithmetic modulo 2^32 on both at once gives both.
+/// Interpolates a row of samples, and multiplies.
 [[gnu::always_inline]] inline void interpolate_row(int row, int column, int count, int shift, Workspace& work) {
-  constexpr std::uint32_t kRedBlue = 0x00ff00ffU;
-  const std::int32_t center = 1 << (23 - shift);
   const std::int32_t* a_red = work.reference[0][row] + column;
   const std::int32_t* a_green = work.reference[1][row] + column;
   const std::int32_t* a_blue = work.reference[2][row] + column;
   for (int i = 0; i < count; ++i) {
-    const auto fraction_x = static_cast<std::uint32_t>(work.fraction_x[i]);
-    const auto fraction_y = static_cast<std::uint32_t>(work.fraction_y[i]);
-    const auto along_x = [&](std::uint32_t left, std::uint32_t right) {
-      return (left << 8) + (right - left) * fraction_x;
-    };
-    const auto along_y = [&](std::uint32_t top, std::uint32_t bottom) {
-      return static_cast<std::int32_t>(((top << 8) + (bottom - top) * fraction_y) >> shift) - center;
-    };
-    const std::uint32_t top = along_x(work.texel[0][i] & kRedBlue, work.texel[1][i] & kRedBlue);
-    const std::uint32_t bottom = along_x(work.texel[2][i] & kRedBlue, work.texel[3][i] & kRedBlue);
-    const std::uint32_t top_green = along_x(green_of(work.texel[0][i]), green_of(work.texel[1][i]));
-    const std::uint32_t bottom_green = along_x(green_of(work.texel[2][i]), green_of(work.texel[3][i]));
-    const std::int32_t red = along_y(top & 0xffffU, bottom & 0xffffU);
-    const std::int32_t green = along_y(top_green, bottom_green);
-    const std::int32_t blue = along_y(top >> 16, bottom >> 16);
-    work.sample[kRed][i] = red;
-    work.sample[kGreen][i] = green;
-    work.sample[kBlue][i] = blue;
-    work.sample[kSquares][i] = red * red + green * green + blue * blue;
-    work.sample[kProducts][i] = a_red[i] * red + a_green[i] * green + a_blue[i] * blue;
+    const Sample b = interpolate_texels(work.texel[0][i], work.texel[1][i], work.texel[2][i], work.texel[3][i],
+                                        static_cast<std::uint32_t>(work.fraction_x[i]),
+                                        static_cast<std::uint32_t>(work.fraction_y[i]), shift);
+    work.sample[kRed][i] = b.red;
+    work.sample[kGreen][i] = b.green;
+    work.sample[kBlue][i] = b.blue;
+    work.sample[kSquares][i] = b.red * b.red + b.green * b.green + b.blue * b.blue;
+    work.sample[kProducts][i] = a_red[i] * b.red + a_green[i] * b.green + a_blue[i] * b.blue;
   }
 }
 
@@ -338,31 +323,31 @@ template <int kWindow>
                                                    const VoteRule& rule, Grid<PixelVote>& votes, Workspace& work) {
   const int shift = kSampleShift + extra_sample_shift(kWindow);
   prepare_reference<kWindow>(*task.reference, tile, shift, work);
-  for (const TilePlane& plane : planes) {
-    const Part part{plane.x, plane.y, plane.x - tile.x, plane.y - tile.y, plane.x_end - plane.x, plane.y_end - plane.y};
+  for (const auto& [plane, at] : planes) {
+    const Part part{at.x, at.y, at.x - tile.x, at.y - tile.y, at.x_end - at.x, at.y_end - at.y};
     for (int y = part.tile_y; y < part.tile_y + part.count_y; ++y) {
       std::fill_n(work.ncc_sum[y] + part.tile_x, part.count_x, 0.0F);
       std::fill_n(work.votes[y] + part.tile_x, part.count_x, 0);
     }
-    const float inverse_depth = task.planes.inverse_depth[static_cast<std::size_t>(plane.plane)];
+    const float inverse_depth = task.planes.inverse_depth[static_cast<std::size_t>(plane)];
     for (std::size_t neighbor = 0; neighbor < task.neighbors.size(); ++neighbor) {
       const PlaneWarp& warp = task.warps[neighbor];
       const PaddedImage& image = *task.neighbors[neighbor];
       if (task.options.window_model == WindowModel::kPlane)
         sweep_part<kWindow>(warp, image, inverse_depth, part, shift, rule.threshold, work);
       else
-        sweep_axis_part<kWindow>(warp, image, inverse_depth, static_cast<uint>(plane.plane), ranges, part, shift,
+        sweep_axis_part<kWindow>(warp, image, inverse_depth, static_cast<uint>(plane), ranges, part, shift,
                                  rule.threshold, work);
     }
-    const auto index = static_cast<uint>(plane.plane);
+    const auto index = static_cast<uint>(plane);
     for (int y = 0; y < part.count_y; ++y) {
-      const PlaneRange* range = ranges.row(plane.y + y) + plane.x;
-      PixelVote* best = votes.row(plane.y + y) + plane.x;
+      const PlaneRange* range = ranges.row(at.y + y) + at.x;
+      PixelVote* best = votes.row(at.y + y) + at.x;
       const float* ncc_sum = work.ncc_sum[part.tile_y + y] + part.tile_x;
       const std::int32_t* count = work.votes[part.tile_y + y] + part.tile_x;
       for (int x = 0; x < part.count_x; ++x)
         if (count[x] >= rule.min_votes && index >= range[x].first && index <= range[x].last)
-          best[x] = vote(best[x], ncc_sum[x], count[x], plane.plane, rule);
+          best[x] = vote(best[x], ncc_sum[x], count[x], plane, rule);
     }
   }
 }
@@ -423,17 +408,6 @@ TileFunction choose_tile_function(int window, SimdLevel simd) {
 }
 
 }  // namespace
-
-SimdLevel best_simd_level() {
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd"))
-    return SimdLevel::kAvx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
-    return SimdLevel::kAvx2;
-#endif
-  return SimdLevel::kBaseline;
-}
 
 void sweep_tile(const SweepTask& task, const Grid<PlaneRange>& ranges, const Tile& tile,
                 const std::vector<TilePlane>& planes, const VoteRule& rule, SimdLevel simd, Grid<PixelVote>& votes) {
