@@ -37,11 +37,6 @@ struct WindowCase {
       if (random() % 8 == 0) range = {1, 0};
     return result;
   }
-  /// The kernels that sweep this model.
-  [[nodiscard]] std::vector<SweepForm> forms() const {
-    if (model == WindowModel::kAxis) return {SweepForm::kGroups};
-    return {SweepForm::kGroups, SweepForm::kLanes};
-  }
   [[nodiscard]] std::vector<SpecConstant> constants(SweepForm form, BlockSize block) const {
     std::vector<SpecConstant> constants = {
         {"kWindow", static_cast<std::uint32_t>(window)},
