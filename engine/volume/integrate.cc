@@ -107,16 +107,20 @@ constexpr std::uint32_t kExists = [] {
       const float u = px * inverse_z;
       const float v = py * inverse_z;
       const bool in = before & (u >= 0.0F) & (v >= 0.0F) & (u < limit_u) & (v < limit_v);
-      const int cell_x = static_cast<int>(in ? u : 0.0F);
-      const int cell_y = static_cast<int>(in ? v : 0.0F);
-      const float fraction_x = u - static_cast<float>(cell_x);
-      const float fraction_y = v - static_cast<float>(cell_y);
-      layer_u[i] = u;
-      layer_v[i] = v;
+      const float inside_u = in ? u : 0.0F;
+      const float inside_v = in ? v : 0.0F;
+      const int cell_x = static_cast<int>(inside_u);
+      const int cell_y = static_cast<int>(inside_v);
+      const float fraction_x = inside_u - static_cast<float>(cell_x);
+      const float fraction_y = inside_v - static_cast<float>(cell_y);
+      layer_u[i] = inside_u;
+      layer_v[i] = inside_v;
       layer_depth[i] = pz;
-      layer_pixel[i] = in ? cell_y * width + cell_x : last_pixel;
-      layer_sides[i] =
-          (fraction_x < fraction_y ? kSideBelow03 : 0U) | (fraction_x + fraction_y > 1.0F ? kSideBelow12 : 0U);
+      const std::uint32_t below_03 = fraction_x < fraction_y ? kSideBelow03 : 0U;
+      const std::uint32_t below_12 = fraction_x + fraction_y > 1.0F ? kSideBelow12 : 0U;
+      const int outside = in ? 0 : last_pixel;
+      layer_pixel[i] = cell_y * width + cell_x + outside;
+      layer_sides[i] = below_03 + below_12;
     }
   }
 }
