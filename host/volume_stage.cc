@@ -118,7 +118,7 @@ Expected<void> VolumeStage::integrate(const FusionView& view, const std::vector<
     const std::size_t end = std::min(static_cast<std::size_t>(buffer_end - list.begin()), begin + kMaxDispatchBlocks);
     params.list_begin = static_cast<int>(begin);
     params.pool_begin = static_cast<int>(buffer * blocks_per_buffer_);
-    commands_->dispatch(kernels_.integrate, {kBlockVoxels, static_cast<std::int64_t>(end - begin)}, params,
+    commands_->dispatch(kernels_.integrate, {kBlockSide * kBlockSide, static_cast<std::int64_t>(end - begin)}, params,
                         {surface->depth, surface->cells, surface->weights, *image, *list_buffer, pool_[buffer]});
     if (auto done = commands_->submit(); !done) return done;
     begin = end;

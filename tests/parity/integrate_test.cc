@@ -40,17 +40,17 @@ TEST_F(IntegrateParity, ViewsOverAPoolInPartsGiveTheBytesOfTheTwin) {
                                          make_weigh_surface_params(view.camera, view.width, view.height, options));
       IntegrateParams params = make_integrate_params(view.camera, view.width, view.height, grid);
       const auto list = find_slots(stored, stored);
-      integrate({map.depth, cells, weights, image}, list, params, twin);
+      integrate({map.depth, cells, weights, image}, list, params, best_simd_level(), twin);
 
       const Buffer depth = buffer_of(map.depth.values);
       const Buffer cell_buffer = buffer_of(cells.values);
       const Buffer weight_buffer = buffer_of(weights.values);
       const Buffer pixels = buffer_of(image.pixels);
       const Buffer list_buffer = buffer_of(list);
-      run(integrate_kernel, {kBlockVoxels, static_cast<std::int64_t>(first_part)}, params,
+      run(integrate_kernel, {kBlockSide * kBlockSide, static_cast<std::int64_t>(first_part)}, params,
           {depth, cell_buffer, weight_buffer, pixels, list_buffer, low});
       params.list_begin = params.pool_begin = static_cast<int>(first_part);
-      run(integrate_kernel, {kBlockVoxels, static_cast<std::int64_t>(stored.size() - first_part)}, params,
+      run(integrate_kernel, {kBlockSide * kBlockSide, static_cast<std::int64_t>(stored.size() - first_part)}, params,
           {depth, cell_buffer, weight_buffer, pixels, list_buffer, high});
     }
     auto on_device = content<Voxel>(low);
