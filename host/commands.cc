@@ -215,6 +215,17 @@ void Commands::fill_zero(const BufferView& view) {
   });
 }
 
+void Commands::copy(const Buffer& from, const Buffer& to) {
+  QUORUM_CHECK_EQ(from.state().device == state_->device, true);
+  QUORUM_CHECK_EQ(to.state().device == state_->device, true);
+  QUORUM_CHECK_EQ(from.size(), to.size());
+  if (from.size() == 0) return;
+  state_->record([&](const vk::raii::CommandBuffer& commands) {
+    commands.copyBuffer(*from.state().allocation.buffer, *to.state().allocation.buffer,
+                        vk::BufferCopy{.size = from.size()});
+  });
+}
+
 Expected<void> Commands::submit() {
   State& state = *state_;
   state.last_submission_seconds = 0.0;

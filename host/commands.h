@@ -74,6 +74,9 @@ class Commands {
   /// Fills a view with zero bytes; its offset and size are multiples of 4, or it is a whole buffer.
   void fill_zero(const BufferView& view);
 
+  /// Copies a whole buffer into another one of the same size.
+  void copy(const Buffer& from, const Buffer& to);
+
   /// Runs what was recorded and waits for it; then the object is ready to record anew. Fails with the first failure of
   /// recording; (kDevice) if the device is lost, fails, or takes longer than the timeout; (kMemory) if memory runs out.
   Expected<void> submit();

@@ -5,6 +5,7 @@
 
 #include "engine/pipeline/backend.h"
 #include "host/depth_stage.h"
+#include "host/device_rates.h"
 #include "host/volume_stage.h"
 
 namespace quorum {
@@ -34,6 +35,7 @@ class VulkanBackend : public Backend {
   [[nodiscard]] std::size_t max_blocks(std::uint64_t host_bytes) const override;
   [[nodiscard]] std::uint64_t view_bytes(std::uint64_t pixels, int neighbors) const override;
   [[nodiscard]] std::vector<StageTime> kernel_times() const override;
+  Expected<DeviceRates> measure_rates() override { return measure_device_rates(*device_); }
 
  private:
   /// True if the device's memory is the host's.

@@ -165,6 +165,20 @@ TEST_F(CommandsTest, FillZeroTakesItsPlaceBetweenDispatches) {
   EXPECT_EQ(content<std::uint32_t>(cells), (std::vector<std::uint32_t>{2, 2, 1, 1, 1, 2, 2, 2}));
 }
 
+TEST_F(CommandsTest, CopyTakesItsPlaceBetweenDispatches) {
+  const Kernel number = kernel("number_threads", {{"kStep", 0}});
+  const Buffer cells = buffer_of(std::vector<std::uint32_t>(8, 5));
+  const Buffer before = buffer_of(std::vector<std::uint32_t>(8, 0));
+  auto commands = Commands::create(device()).value();
+  commands.fill_zero(cells);
+  commands.dispatch(number, {8}, BoxParams{8, 1, 1}, {cells});
+  commands.copy(cells, before);
+  commands.dispatch(number, {8}, BoxParams{8, 1, 1}, {cells});
+  expect_success(commands.submit());
+  EXPECT_EQ(content<std::uint32_t>(before), std::vector<std::uint32_t>(8, 1));
+  EXPECT_EQ(content<std::uint32_t>(cells), std::vector<std::uint32_t>(8, 2));
+}
+
 TEST_F(CommandsTest, RegionsAreTimedUnderTheirNames) {
   const Kernel spin = kernel("spin");
   const Buffer sum = buffer_of(std::vector<std::uint32_t>{0});
