@@ -60,7 +60,7 @@ TEST(WorkGuard, ARunDoesNoMoreWorkThanItDid) {
   expect_at_most(sweep.sweep_windows, 4925276, "the first pass (windows: pixel · depth · neighbor)");
   expect_at_most(sweep.sweep_samples, 7967360, "the first pass (interpolated samples)");
   expect_at_most(sweep.refine_windows, 1333648, "the second pass (windows: pixel · depth · neighbor)");
-  expect_at_most(sweep.refine_samples, 16916956, "the second pass (interpolated samples)");
+  expect_at_most(sweep.refine_samples, 11146120, "the second pass (interpolated samples)");
   expect_at_most(run.report.blocks, 694, "collect_blocks (blocks of the volume)");
   expect_at_most(run.report.block_views, 4019, "collect_blocks (blocks of each view)");
   expect_at_most(run.integrated_block_views * kBlockVoxels, 2057728, "integrate (voxels visited)");
