@@ -5,6 +5,7 @@
 
 #include "engine/depth/reference_windows.h"
 #include "engine/depth/refine_depth.h"
+#include "engine/depth/refine_planes.h"
 #include "engine/depth/vote_depth.h"
 #include "host/kernel_table.h"
 #include "host/sweep_texels.h"
@@ -79,14 +80,17 @@ Expected<DepthStage> DepthStage::create(const Device& device, Commands& commands
   auto vote_depth =
       Kernel::create(device, find_kernel(chosen == SweepForm::kLanes ? "vote_depth_lanes" : "vote_depth"));
   if (!vote_depth) return std::unexpected(vote_depth.error());
-  return DepthStage(device, commands, chosen, std::move(*vote_depth));
+  auto planes = PlaneStage::create(device, commands);
+  if (!planes) return std::unexpected(planes.error());
+  return DepthStage(device, commands, chosen, std::move(*vote_depth), std::move(*planes));
 }
 
-DepthStage::DepthStage(const Device& device, Commands& commands, SweepForm form, Kernel vote_depth)
+DepthStage::DepthStage(const Device& device, Commands& commands, SweepForm form, Kernel vote_depth, PlaneStage planes)
     : device_(&device),
       commands_(&commands),
       form_(form),
       vote_depth_(std::move(vote_depth)),
+      planes_(std::move(planes)),
       batch_size_(kStartWindows, kLeastWindows, kNccValues) {}
 
 SweepForm DepthStage::form_of(const SweepTask& task) const {
@@ -187,15 +191,24 @@ Expected<Grid<PixelVote>> DepthStage::run_pass(const SweepTask& task, const Inpu
   return votes;
 }
 
-Expected<DepthMap> DepthStage::run(const SweepTask& task) {
+Expected<Grid<PixelVote>> DepthStage::sweep(const SweepTask& task) {
   if (auto ready = prepare_kernels(task); !ready) return std::unexpected(ready.error());
   auto inputs = upload(task);
   if (!inputs) return std::unexpected(inputs.error());
   auto votes = run_pass(task, *inputs, task.ranges, sweep_->first, task.planes.refinement);
-  if (votes && task.planes.refinement > 1)
+  const bool slanted = task.options.window_model == WindowModel::kSlanted;
+  if (votes && task.planes.refinement > 1 && !slanted)
     votes = run_pass(task, *inputs, refine_ranges(*votes, task.planes), sweep_->second, 1);
+  return votes;
+}
+
+Expected<DepthMap> DepthStage::run(const SweepTask& task) {
+  const auto votes = sweep(task);
   if (!votes) return std::unexpected(votes.error());
-  return depth_map_from_votes(*votes, task.planes);
+  if (task.options.window_model != WindowModel::kSlanted) return depth_map_from_votes(*votes, task.planes);
+  const auto planes = planes_.run(task, *votes);
+  if (!planes) return std::unexpected(planes.error());
+  return depth_map_from_planes(*planes);
 }
 
 }  // namespace quorum

@@ -1,5 +1,5 @@
 // Depth maps on a Vulkan device: sweep_depth and vote_depth over all planes, then again over the planes around each
-// pixel's best one. Between the two passes only the planes differ.
+// pixel's best one (between the two passes only the planes differ), or tilted planes instead (host/plane_stage.h).
 #pragma once
 
 #include <optional>
@@ -10,6 +10,7 @@
 #include "host/buffer.h"
 #include "host/commands.h"
 #include "host/kernel.h"
+#include "host/plane_stage.h"
 #include "host/sweep_batch.h"
 
 namespace quorum {
@@ -50,11 +51,12 @@ class DepthStage {
     Buffer ncc;
   };
 
-  DepthStage(const Device& device, Commands& commands, SweepForm form, Kernel vote_depth);
+  DepthStage(const Device& device, Commands& commands, SweepForm form, Kernel vote_depth, PlaneStage planes);
   [[nodiscard]] SweepForm form_of(const SweepTask& task) const;
   Expected<void> prepare_kernels(const SweepTask& task);
   [[nodiscard]] Expected<Pass> make_pass(SweepForm form, const SweepOptions& options, BlockSize block) const;
   Expected<Inputs> upload(const SweepTask& task) const;
+  Expected<Grid<PixelVote>> sweep(const SweepTask& task);
   Expected<Grid<PixelVote>> run_pass(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges,
                                      const Pass& pass, int stride);
   Expected<void> run_batch(const SweepTask& task, const Inputs& inputs, const Pass& pass, const SweepBatch& batch,
@@ -64,6 +66,7 @@ class DepthStage {
   Commands* commands_;
   SweepForm form_;
   Kernel vote_depth_;
+  PlaneStage planes_;
   std::optional<Sweep> sweep_;
   BatchSize batch_size_;  // windows per submission
 };

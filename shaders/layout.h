@@ -20,6 +20,11 @@ const int kPositionBits = 8;
 const int kSampleShift = 12;
 const int kLargestFullPrecisionWindow = 13;
 
+// Where a window on a tilted plane lands in a neighbor: its center and its steps, in 1/4096 pixel.
+const int kPlacementScale = 4096;
+const int kPlacementBits = 12;
+const int kMaxStretch = 8;  // pixels of the neighbor to one of the reference; beyond that it does not see the window
+
 // A neighbor that would see a point at less than this share of the reference depth does not see it.
 const float kMinDepthRatio = 0.0009765625f;  // 1/1024
 
@@ -69,6 +74,46 @@ struct PixelVote {
   int plane;
 };
 QUORUM_SIZE(PixelVote, 12);
+
+// The plane of one reference pixel (x, y), linear in inverse depth: the point (x + dx, y + dy) of the plane lies at
+// inverse_depth + slope_x * dx + slope_y * dy. inverse_depth 0 = none, and then all is 0.
+struct PixelPlane {
+  float inverse_depth;  // 1 / scene units
+  float slope_x;        // 1 / scene units, per pixel
+  float slope_y;
+  float correlation;
+  float confidence;
+  int changed;  // 1: it was taken in the last round
+};
+QUORUM_SIZE(PixelPlane, 24);
+
+// A plane that is tried at a pixel, and the votes so far. inverse_depth 0 = none, or it can't win any more.
+struct PlaneTrial {
+  float inverse_depth;
+  float slope_x;
+  float slope_y;
+  float ncc_sum;
+  int votes;
+};
+QUORUM_SIZE(PlaneTrial, 20);
+
+// Where the planes of one reference pixel may cross its ray, 1 / scene units; none if farthest > nearest.
+struct InverseDepthRange {
+  float farthest;
+  float nearest;
+};
+QUORUM_SIZE(InverseDepthRange, 8);
+
+// How a plane to try comes about: that of the pixel at the offset in the last round, extrapolated, or with offset (0, 0)
+// the pixel's best one so far, with a step.
+struct PlaneMove {
+  int offset_x;
+  int offset_y;
+  float inverse_depth;
+  float slope_x;
+  float slope_y;
+};
+QUORUM_SIZE(PlaneMove, 20);
 
 // A block of the reference view that is swept on one plane, all its windows together. x, y: its first pixel, a
 // multiple of the block's size, which the kernel knows.
@@ -124,6 +169,32 @@ struct VoteParams {
   float confidence_scale;  // 1 / (neighbor count * (1 - threshold))
 };
 QUORUM_SIZE(VoteParams, 40);
+
+// score_planes: adds the votes of one neighbor to the trials of a view.
+struct ScorePlanesParams {
+  PlaneWarp warp;
+  int width;            // reference view, pixels
+  int height;           // reference view, pixels
+  int neighbor_width;   // pixels
+  int neighbor_height;  // pixels
+  int left;             // neighbors that come after this one
+  int min_votes;
+  float threshold;
+  float confidence_scale;  // 1 / (neighbor count * (1 - threshold))
+};
+QUORUM_SIZE(ScorePlanesParams, 80);
+
+// refine_planes: takes the trials that won, and makes the next ones.
+struct RefinePlanesParams {
+  PlaneMove move;
+  int width;
+  int height;
+  int ends_round;  // 1: no trial; the planes of this round become those of the last one
+  float max_tilt;  // largest slope, as a share of the inverse depth
+  float threshold;
+  float confidence_scale;
+};
+QUORUM_SIZE(RefinePlanesParams, 44);
 
 // range_surface: the triangles of one depth map.
 struct RangeSurfaceParams {

@@ -70,7 +70,10 @@ Expected<CpuSweepOptions> cpu_options(const RunArguments& arguments) {
 /// Turns the typed lengths and names into options, and checks all ranges.
 Expected<void> resolve(RunArguments& arguments) {
   ReconstructOptions& options = arguments.options;
-  options.sweep.window_model = arguments.window_model == "axis" ? WindowModel::kAxis : WindowModel::kPlane;
+  for (const WindowModel model : {WindowModel::kSlanted, WindowModel::kPlane, WindowModel::kAxis})
+    if (arguments.window_model == window_model_name(model)) options.sweep.window_model = model;
+  if (arguments.no_slant && options.sweep.window_model == WindowModel::kSlanted)
+    options.sweep.window_model = WindowModel::kPlane;
   const auto length = [](const char* name, const std::string& text, double& value) -> Expected<void> {
     const auto parsed = parse_length(name, text);
     if (!parsed) return std::unexpected(parsed.error());
@@ -128,10 +131,12 @@ void RunArguments::add_depth_options(CLI::App& app) {
       ->capture_default_str()
       ->group(group);
   app.add_option("--window-model", window_model,
-                 "plane: windows follow the plane of the tested depth; axis: the paper's axis-aligned windows")
-      ->check(CLI::IsMember({"plane", "axis"}))
+                 "slanted: windows lie on the surface; plane: they follow the plane of the tested depth; axis: the "
+                 "paper's axis-aligned windows")
+      ->check(CLI::IsMember({"slanted", "plane", "axis"}))
       ->capture_default_str()
       ->group(group);
+  app.add_flag("--no-slant", no_slant, "As --window-model plane")->group(group);
   app.add_option("--threshold", options.sweep.threshold, "Correlation from which on a view votes for a depth")
       ->capture_default_str()
       ->group(group);
@@ -146,7 +151,7 @@ void RunArguments::add_depth_options(CLI::App& app) {
       ->capture_default_str()
       ->group(group);
   app.add_option("--refinement", options.sweep.refinement,
-                 "The second pass divides the step by this; 1: no second pass")
+                 "The second pass of plane and axis divides the step by this; 1: no second pass")
       ->capture_default_str()
       ->group(group);
   app.add_option("--mask-below", options.mask_below,

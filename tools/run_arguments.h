@@ -22,7 +22,8 @@ struct RunArguments {
   std::string memory = "auto";
   std::string simd = "auto";
   std::vector<int> tile = {64, 16};
-  std::string window_model = "plane";
+  std::string window_model = "slanted";
+  bool no_slant = false;
   std::string depth_step = "auto";
   std::string voxel_size = "auto";
   std::string truncation = "auto";

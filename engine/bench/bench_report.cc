@@ -16,6 +16,8 @@ constexpr double kProducts = 10;     // 5 for b·b, 5 for a·b
 constexpr double kSums = 20;         // 5 running sums: one in, one out, along the row and down the column
 constexpr double kNcc = 33;          // 14 covariance and variance, 10 reciprocal_sqrt, 5 products and tests, 4 votes
 constexpr double kWindowOperations = kWarp + kInterpolate + kProducts + kSums + kNcc;
+// A sample of a window on a tilted plane: 8 for its position and fractions, 42 interpolation, 10 products, 10 sums.
+constexpr double kTiltedSampleOperations = 8 + kInterpolate + kProducts + 10;
 
 constexpr double kVoxelOperations = 33;   // 18 projection, 7 reciprocal, 2 for (u, v), 6 tests
 constexpr double kVertexOperations = 24;  // a point on a ray: for each axis 2 for the position, 6 for the blocks
@@ -41,7 +43,8 @@ Totals total(const Scene& scene, const ReconstructOptions& options, const RunRep
     const double pixels = static_cast<double>(found->width) * found->height;
     const auto valid = static_cast<double>(view.valid_pixels);
     sum.sweep_windows += static_cast<double>(view.depth_samples) * neighbors;
-    sum.refine_windows += options.sweep.refinement > 1 ? valid * (2 * options.sweep.refinement - 1) * neighbors : 0.0;
+    const bool second_pass = options.sweep.refinement > 1 && options.sweep.window_model != WindowModel::kSlanted;
+    sum.refine_windows += second_pass ? valid * (2 * options.sweep.refinement - 1) * neighbors : 0.0;
     sum.valid_pixels += valid;
     sum.pixels += pixels;
     sum.images += pixels * (1.0 + neighbors);
@@ -81,8 +84,20 @@ std::vector<Cost> bench_costs(const Scene& scene, const ReconstructOptions& opti
   add("sweep_depth", "pixel · depth · neighbor", sum.sweep_windows, kernel("sweep_depth"),
       kWindowOperations * sum.sweep_windows, 4 * sum.images + 20 * sum.pixels,
       "135 operations a window; 4 bytes a pixel of reference and neighbors, 20 of ranges and votes", device);
-  add("refine_depth", "pixel · depth · neighbor", sum.refine_windows, kernel("refine_depth"),
-      kWindowOperations * sum.refine_windows, 4 * sum.images + 20 * sum.pixels, "as sweep_depth", device);
+  if (options.sweep.window_model == WindowModel::kSlanted) {
+    const auto samples = static_cast<double>(report.sweep.refine_samples);  // 0 on a device that does not count them
+    const auto windows = static_cast<double>(report.sweep.refine_windows);
+    if (windows > 0)
+      add("refine_planes", "pixel · plane · neighbor", windows, kernel("refine_planes"),
+          kTiltedSampleOperations * samples, 4 * sum.images + 24 * sum.pixels,
+          "70 operations a sample; 4 bytes a pixel of reference and neighbors, 24 of planes", device);
+    else
+      add("score_planes", "pixel · view", sum.pixels, kernel("score_planes"), 0.0, 4 * sum.images + 24 * sum.pixels,
+          "4 bytes a pixel of reference and neighbors, 24 of planes; operations are not counted", device);
+  } else {
+    add("refine_depth", "pixel · depth · neighbor", sum.refine_windows, kernel("refine_depth"),
+        kWindowOperations * sum.refine_windows, 4 * sum.images + 20 * sum.pixels, "as sweep_depth", device);
+  }
   if (const double vote = kernel("vote_depth"); vote > 0) {
     const double windows = sum.sweep_windows + sum.refine_windows;
     add("vote_depth", "pixel · depth · neighbor", windows, vote, 4 * windows, 4 * windows,

@@ -36,6 +36,11 @@ double largest_motion(const Scene& scene, int reference, const std::vector<int>&
 
 }  // namespace
 
+float DepthPlanes::step() const {
+  const double count = std::max(static_cast<double>(inverse_depth.size()) - 1.0, 1.0) / refinement;
+  return static_cast<float>((static_cast<double>(inverse_depth.front()) - inverse_depth.back()) / count);
+}
+
 Expected<DepthPlanes> make_depth_planes(const Scene& scene, int reference, const std::vector<int>& neighbors,
                                         const SweepOptions& options) {
   const View& view = scene.views[static_cast<std::size_t>(reference)];

@@ -18,6 +18,9 @@ struct DepthPlanes {
   std::vector<float> depth;          ///< scene units
   std::vector<float> inverse_depth;  ///< the same planes, 1 / depth rounded once
   int refinement = 1;                ///< planes of the second pass to one of the first
+
+  /// Mean distance of the planes of the first pass, 1 / scene units.
+  [[nodiscard]] float step() const;
 };
 
 /// Planes that cover the bounds as seen from scene.views[reference].

@@ -10,22 +10,12 @@
 #include "engine/core/clock.h"
 #include "engine/depth/plane_warp.h"
 #include "engine/depth/refine_depth.h"
+#include "engine/depth/refine_planes.h"
 #include "engine/depth/sweep_tile.h"
 #include "engine/depth/vote_depth.h"
 #include "engine/depth/window_ncc.h"
 
 namespace quorum {
-namespace {
-
-void add_sample(WindowSums& sums, const Sample& a, const Sample& b) {
-  sums.a[0] += a.red, sums.a[1] += a.green, sums.a[2] += a.blue;
-  sums.b[0] += b.red, sums.b[1] += b.green, sums.b[2] += b.blue;
-  sums.aa += a.red * a.red + a.green * a.green + a.blue * a.blue;
-  sums.bb += b.red * b.red + b.green * b.green + b.blue * b.blue;
-  sums.ab += a.red * b.red + a.green * b.green + a.blue * b.blue;
-}
-
-}  // namespace
 
 float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane) {
   const PaddedImage& image = *task.neighbors[static_cast<std::size_t>(neighbor)];
@@ -82,7 +72,7 @@ Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& rang
         tile_planes.collect(ranges, tile, stride, window);
         if (tile_planes.planes().empty()) continue;
         sweep_tile(task, ranges, tile, tile_planes.planes(), rule, cpu.simd, votes);
-        const bool shared = task.options.window_model == WindowModel::kPlane;
+        const bool shared = task.options.window_model != WindowModel::kAxis;
         tests += tile_planes.tests();
         samples += shared ? tile_planes.samples(window) : tile_planes.tests() * static_cast<uint>(window * window);
       }
@@ -100,6 +90,11 @@ Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& rang
 DepthMap sweep_depth(const SweepTask& task, const CpuSweepOptions& cpu, SweepWork* work) {
   SweepWork done;
   Grid<PixelVote> votes = sweep_planes(task, task.ranges, task.planes.refinement, cpu, &done.sweep);
+  if (task.options.window_model == WindowModel::kSlanted) {
+    const Grid<PixelPlane> planes = refine_planes(task, votes, cpu, &done.refine);
+    if (work != nullptr) *work = done;
+    return depth_map_from_planes(planes);
+  }
   if (task.planes.refinement > 1) votes = sweep_planes(task, refine_ranges(votes, task.planes), 1, cpu, &done.refine);
   if (work != nullptr) *work = done;
   return depth_map_from_votes(votes, task.planes);

@@ -32,7 +32,7 @@ struct PassWork {
 
 struct SweepWork {
   PassWork sweep;   ///< first pass
-  PassWork refine;  ///< second pass
+  PassWork refine;  ///< second pass, or tilted planes
 };
 
 /// Votes of the best plane per pixel over one pass: each pixel tests the planes of its range, every stride-th.
@@ -40,8 +40,8 @@ struct SweepWork {
 Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& ranges, int stride,
                              const CpuSweepOptions& cpu, PassWork* work = nullptr);
 
-/// Both passes of the paper: planes of the first pass, then the planes around each pixel's best one. work: if given,
-/// receives what was done.
+/// Both passes of the paper: planes of the first pass, then the planes around each pixel's best one, or tilted planes
+/// (refine_planes.h) if the windows are slanted. work: if given, receives what was done.
 DepthMap sweep_depth(const SweepTask& task, const CpuSweepOptions& cpu, SweepWork* work = nullptr);
 
 }  // namespace quorum

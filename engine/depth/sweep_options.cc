@@ -4,6 +4,10 @@
 
 namespace quorum {
 
+const char* window_model_name(WindowModel model) {
+  return model == WindowModel::kSlanted ? "slanted" : model == WindowModel::kPlane ? "plane" : "axis";
+}
+
 Expected<void> SweepOptions::check() const {
   const auto wrong = [](std::string text) { return failure(ErrorKind::kUsage, std::move(text)); };
   if (window < 3 || window > 15 || window % 2 == 0)

@@ -1,5 +1,6 @@
-// Options of the depth stages. The defaults were chosen by the experiments of docs/paper.md: window, min_votes,
-// refinement and window_model stand there under these names, threshold and step_pixels depart from the paper.
+// Options of the depth stages. The defaults were chosen by the experiments of docs/paper.md, where window, min_votes
+// and refinement stand under these names; threshold and step_pixels depart from the paper. Slanted windows:
+// docs/quality.md.
 #pragma once
 
 #include "engine/core/error.h"
@@ -8,9 +9,13 @@ namespace quorum {
 
 /// What a window in the neighbor looks like.
 enum class WindowModel {
-  kPlane,  ///< follows the fronto-parallel plane at the tested depth; also right for rotated neighbors
-  kAxis,   ///< the paper's: as many pixels, axis-aligned, around the projection
+  kSlanted,  ///< follows the plane at the tested depth, then a tilted plane that is found instead of a second pass
+  kPlane,    ///< follows the fronto-parallel plane at the tested depth; also right for rotated neighbors
+  kAxis,     ///< the paper's: as many pixels, axis-aligned, around the projection
 };
+
+/// "slanted", "plane" or "axis".
+const char* window_model_name(WindowModel model);
 
 struct SweepOptions {
   int window = 5;            ///< side of the window, pixels, odd, 3..15 (paper 4.2)
@@ -19,7 +24,7 @@ struct SweepOptions {
   double depth_step = 0.0;   ///< distance of depth samples, scene units (the paper's 2.5 mm); 0 = automatic
   double step_pixels = 1.0;  ///< automatic step: largest motion of the projection in a neighbor, pixels, 0.05..8
   int refinement = 10;       ///< the second pass samples at 1 / refinement of the step; 1 = no second pass (paper 4.1)
-  WindowModel window_model = WindowModel::kPlane;
+  WindowModel window_model = WindowModel::kSlanted;
 
   /// Names the first option that is out of its range, and the range. kUsage.
   [[nodiscard]] Expected<void> check() const;

@@ -20,6 +20,7 @@ struct SweepTask {
   DepthPlanes planes;
   Grid<PlaneRange> ranges;
   SweepOptions options;
+  float max_tilt = 0.0F;  ///< of slanted windows, see max_plane_tilt()
 
   [[nodiscard]] int neighbor_count() const { return static_cast<int>(neighbors.size()); }
 };

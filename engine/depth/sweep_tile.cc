@@ -333,7 +333,7 @@ template <int kWindow>
     for (std::size_t neighbor = 0; neighbor < task.neighbors.size(); ++neighbor) {
       const PlaneWarp& warp = task.warps[neighbor];
       const PaddedImage& image = *task.neighbors[neighbor];
-      if (task.options.window_model == WindowModel::kPlane)
+      if (task.options.window_model != WindowModel::kAxis)
         sweep_part<kWindow>(warp, image, inverse_depth, part, shift, rule.threshold, work);
       else
         sweep_axis_part<kWindow>(warp, image, inverse_depth, static_cast<uint>(plane), ranges, part, shift,

@@ -32,7 +32,7 @@ struct StageTime {
 struct SweepCounts {
   std::uint64_t sweep_windows = 0;  ///< first pass
   std::uint64_t sweep_samples = 0;
-  std::uint64_t refine_windows = 0;  ///< second pass
+  std::uint64_t refine_windows = 0;  ///< second pass, or planes that were tried
   std::uint64_t refine_samples = 0;
 };
 
@@ -73,7 +73,8 @@ class Backend {
 
   /// Most blocks that fit into this much memory of the host, and into the device's; those read back included.
   [[nodiscard]] virtual std::size_t max_blocks(std::uint64_t host_bytes) const = 0;
-  /// Memory of the host that the work on a view takes beside its inputs, bytes.
+  /// Memory of the host that the work on a view takes beside its inputs, bytes. neighbors: of a view that is swept; 0
+  /// for one that is merged.
   [[nodiscard]] virtual std::uint64_t view_bytes(std::uint64_t pixels, int neighbors) const = 0;
 
   /// Device seconds per kernel so far.

@@ -56,7 +56,8 @@ Expected<DepthMap> CpuBackend::sweep_depth(const SweepTask& task) {
   SweepWork work;
   DepthMap map = quorum::sweep_depth(task, options_, &work);
   add_time("sweep_depth", work.sweep.cpu_seconds);
-  add_time("refine_depth", work.refine.cpu_seconds);
+  const bool slanted = task.options.window_model == WindowModel::kSlanted;
+  add_time(slanted ? "refine_planes" : "refine_depth", work.refine.cpu_seconds);
   counts_.sweep_windows += work.sweep.windows;
   counts_.sweep_samples += work.sweep.samples;
   counts_.refine_windows += work.refine.windows;
@@ -108,8 +109,10 @@ std::size_t CpuBackend::max_blocks(std::uint64_t host_bytes) const {
   return host_bytes / (kBlockVoxels * sizeof(Voxel));
 }
 
-std::uint64_t CpuBackend::view_bytes(std::uint64_t pixels, int /*neighbors*/) const {
-  return 44 * pixels;  // the sweep: votes of both passes, ranges of the second, the maps; the surface takes less
+std::uint64_t CpuBackend::view_bytes(std::uint64_t pixels, int neighbors) const {
+  // The sweep: votes, planes twice, what they begin with, their ranges, reference windows, the maps. The surface:
+  // cells, weights, maps.
+  return (neighbors > 0 ? 116 : 44) * pixels;
 }
 
 Expected<DeviceRates> CpuBackend::measure_rates() {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/depth/depth_planes.h"
+#include "engine/depth/plane_moves.h"
 #include "engine/depth/plane_warp.h"
 #include "engine/io/image_store.h"
 #include "engine/io/ply.h"
@@ -32,6 +33,7 @@ Expected<SweepTask> make_sweep_task(const Scene& scene, int reference, const std
   task.planes = std::move(*planes);
   auto mask = images.mask(reference);
   if (!mask) return std::unexpected(mask.error());
+  task.max_tilt = max_plane_tilt(view_at(scene, reference).camera);
   task.ranges = make_plane_ranges(view_at(scene, reference), scene.bounds, **mask, task.planes, options.window / 2);
   auto image = load_padded(images, reference);
   if (!image) return std::unexpected(image.error());

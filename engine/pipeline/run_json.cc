@@ -25,7 +25,7 @@ Json json_of(const ReconstructOptions& options) {
           {"min_angle_deg", options.views.min_angle_deg},
           {"max_angle_deg", options.views.max_angle_deg},
           {"window", options.sweep.window},
-          {"window_model", options.sweep.window_model == WindowModel::kPlane ? "plane" : "axis"},
+          {"window_model", window_model_name(options.sweep.window_model)},
           {"threshold", options.sweep.threshold},
           {"min_votes", options.sweep.min_votes},
           {"depth_step", automatic(options.sweep.depth_step)},

@@ -63,8 +63,10 @@ TEST_F(BackendsParity, DepthMapsAreEqualInEveryForm) {
   for (const auto& [window, model, seed] : {std::tuple{5, WindowModel::kPlane, 1U},
                                             {15, WindowModel::kPlane, 2U},
                                             {3, WindowModel::kAxis, 3U},
-                                            {5, WindowModel::kPlane, 4U}}) {
-    const SphereScene sphere = make_sphere_scene(5, 97, 71, model == WindowModel::kPlane, seed);
+                                            {5, WindowModel::kPlane, 4U},
+                                            {5, WindowModel::kSlanted, 5U},
+                                            {9, WindowModel::kSlanted, 6U}}) {
+    const SphereScene sphere = make_sphere_scene(5, 97, 71, model != WindowModel::kAxis, seed);
     SweepOptions options;
     options.window = window;
     options.window_model = model;

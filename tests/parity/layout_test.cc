@@ -55,6 +55,20 @@ TEST_F(LayoutParity, VoteParamsAreReadMemberByMember) {
                    p.min_votes, p.threshold, p.confidence_scale));
 }
 
+TEST_F(LayoutParity, ScorePlanesParamsAreReadMemberByMember) {
+  const auto p = numbered<ScorePlanesParams>();
+  compare("probe_score_planes_params", p,
+          words_of(p.warp.rotation, p.warp.offset, p.width, p.height, p.neighbor_width, p.neighbor_height, p.left,
+                   p.min_votes, p.threshold, p.confidence_scale));
+}
+
+TEST_F(LayoutParity, RefinePlanesParamsAreReadMemberByMember) {
+  const auto p = numbered<RefinePlanesParams>();
+  compare("probe_refine_planes_params", p,
+          words_of(p.move.offset_x, p.move.offset_y, p.move.inverse_depth, p.move.slope_x, p.move.slope_y, p.width,
+                   p.height, p.ends_round, p.max_tilt, p.threshold, p.confidence_scale));
+}
+
 TEST_F(LayoutParity, CollectParamsAreReadMemberByMember) {
   const auto p = numbered<CollectParams>();
   compare("probe_collect_params", p,

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "engine/core/check.h"
+#include "engine/depth/plane_moves.h"
 #include "engine/depth/plane_warp.h"
 
 namespace quorum {
@@ -121,6 +122,7 @@ SweepTask make_sphere_task(const SphereScene& sphere, int reference, const Sweep
   QUORUM_CHECK_EQ(planes.has_value(), true);
   task.planes = std::move(*planes);
   const View& view = sphere.scene.views[static_cast<std::size_t>(reference)];
+  task.max_tilt = max_plane_tilt(view.camera);
   task.ranges = make_plane_ranges(view, sphere.scene.bounds, {}, task.planes, options.window / 2);
   const auto padded = [&](int index) {
     return std::make_shared<const PaddedImage>(pad_image(sphere.images[static_cast<std::size_t>(index)]));

@@ -73,6 +73,7 @@ TEST(BenchReport, CostsCountTheWorkOfTheRun) {
   scene.views[0].width = scene.views[1].width = 10;
   scene.views[0].height = scene.views[1].height = 10;
   ReconstructOptions options;
+  options.sweep.window_model = WindowModel::kPlane;
   RunReport report;
   report.views = {{"a", {"b", "c"}, 50, 500, 20}};
   report.kernels = {{"sweep_depth", 1.0}, {"integrate", 2.0}};
@@ -92,6 +93,16 @@ TEST(BenchReport, CostsCountTheWorkOfTheRun) {
   EXPECT_EQ(cost("marching_cubes").units, 7);
   EXPECT_EQ(cost("marching_cubes").seconds, 3.0);
   EXPECT_NEAR(cost("marching_cubes").limit_seconds, 1024 * 7 * 1e-3, 1e-9);
+
+  options.sweep.window_model = WindowModel::kSlanted;
+  report.sweep.refine_windows = 40;
+  report.sweep.refine_samples = 1000;
+  const auto slanted = bench_costs(scene, options, report, {1e9, 1e9}, {1e3, 1e9});
+  EXPECT_EQ(std::ranges::count(slanted, "refine_depth", &Cost::name), 0);
+  const auto planes = std::ranges::find(slanted, "refine_planes", &Cost::name);
+  ASSERT_NE(planes, slanted.end());
+  EXPECT_EQ(planes->units, 40);
+  EXPECT_EQ(planes->operations, 70 * 1000);
 }
 
 }  // namespace

@@ -86,6 +86,7 @@ TEST(SweepDepth, TheSecondPassIsCloserToTheTruth) {
     SweepOptions options;
     options.step_pixels = 1.0;
     options.refinement = refinement;
+    options.window_model = WindowModel::kPlane;
     const DepthMap map = sweep_depth(make_sphere_task(sphere, 2, options), {});
     double sum = 0.0;
     int count = 0;

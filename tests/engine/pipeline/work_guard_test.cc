@@ -27,7 +27,7 @@ struct GuardedRun {
   std::size_t integrated_block_views = 0;
   std::uintmax_t bytes_written = 0;
 
-  GuardedRun() {
+  explicit GuardedRun(WindowModel model) {
     const TemporaryFolder folder;
     TempleOptions temple;
     temple.views = 8;
@@ -43,6 +43,7 @@ struct GuardedRun {
     ReconstructOptions options;
     options.sweep.depth_step = 0.0025;
     options.sweep.threshold = 0.6F;
+    options.sweep.window_model = model;
     CpuBackend cpu({SimdLevel::kBaseline, 64, 16});
     LimitedBackend counting(cpu, std::size_t{1} << 30);
     Progress progress;
@@ -55,7 +56,7 @@ struct GuardedRun {
 };
 
 TEST(WorkGuard, ARunDoesNoMoreWorkThanItDid) {
-  const GuardedRun run;
+  const GuardedRun run(WindowModel::kPlane);
   const SweepCounts& sweep = run.report.sweep;
   expect_at_most(sweep.sweep_windows, 4925276, "the first pass (windows: pixel · depth · neighbor)");
   expect_at_most(sweep.sweep_samples, 7967360, "the first pass (interpolated samples)");
@@ -66,6 +67,13 @@ TEST(WorkGuard, ARunDoesNoMoreWorkThanItDid) {
   expect_at_most(run.integrated_block_views * kBlockVoxels, 2057728, "integrate (voxels visited)");
   expect_at_most(run.bytes_written, 2090297, "the workspace (bytes of depth maps and mesh)");
   EXPECT_EQ(run.integrated_block_views, run.report.block_views) << "integrate visits other blocks than are in sight";
+}
+
+TEST(WorkGuard, SlantedWindowsTryNoMorePlanesThanTheyDid) {
+  const GuardedRun run(WindowModel::kSlanted);
+  const SweepCounts& sweep = run.report.sweep;
+  expect_at_most(sweep.refine_windows, 3450280, "refine_planes (windows: pixel · plane · neighbor)");
+  expect_at_most(sweep.refine_samples, 83629850, "refine_planes (interpolated samples)");
 }
 
 }  // namespace

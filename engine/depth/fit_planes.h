@@ -1,0 +1,14 @@
+// The first plane of every pixel: the one that fits the depths of the first pass around it.
+#pragma once
+
+#include "engine/core/grid.h"
+#include "engine/depth/depth_planes.h"
+
+namespace quorum {
+
+/// Per pixel the plane through the depths of the votes in the 7 × 7 pixels around it that lie within three steps of the
+/// first pass of its own, by least squares; a plane without slopes where fewer than six do or all lie on a line.
+/// Nothing where the pixel has no vote. Float operations in a fixed order: the same bytes everywhere.
+Grid<PlaneTrial> fit_planes(const Grid<PixelVote>& votes, const DepthPlanes& planes);
+
+}  // namespace quorum

@@ -1,0 +1,42 @@
+#include "engine/depth/plane_moves.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace quorum {
+
+std::vector<std::vector<PlaneMove>> plane_rounds(const DepthPlanes& planes, int window) {
+  constexpr int kRounds = 3;
+  std::vector<std::vector<PlaneMove>> rounds;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<PlaneMove> moves;
+    for (const int distance : {1, 3})
+      for (const auto& [x, y] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
+        moves.push_back({distance * x, distance * y, 0.0F, 0.0F, 0.0F});
+    const float depth = std::ldexp(planes.step(), -1 - round);
+    const float slope = 2.0F * depth / static_cast<float>(window);
+    for (const float sign : {1.0F, -1.0F}) moves.push_back({0, 0, sign * depth, 0.0F, 0.0F});
+    for (const float sign : {1.0F, -1.0F}) moves.push_back({0, 0, 0.0F, sign * slope, 0.0F});
+    for (const float sign : {1.0F, -1.0F}) moves.push_back({0, 0, 0.0F, 0.0F, sign * slope});
+    rounds.push_back(std::move(moves));
+  }
+  return rounds;
+}
+
+Grid<InverseDepthRange> inverse_depth_ranges(const Grid<PlaneRange>& ranges, const DepthPlanes& planes) {
+  Grid<InverseDepthRange> result(ranges.width, ranges.height, {1.0F, 0.0F});
+  for (std::size_t pixel = 0; pixel < ranges.values.size(); ++pixel) {
+    const PlaneRange& range = ranges.values[pixel];
+    if (range.first <= range.last)
+      result.values[pixel] = {planes.inverse_depth[range.last], planes.inverse_depth[range.first]};
+  }
+  return result;
+}
+
+float max_plane_tilt(const Camera& camera) {
+  constexpr double kMaxTiltDeg = 80.0;
+  const double focal = (camera.intrinsics(0, 0) + camera.intrinsics(1, 1)) / 2.0;
+  return static_cast<float>(std::tan(kMaxTiltDeg * std::numbers::pi / 180.0) / focal);
+}
+
+}  // namespace quorum

@@ -1,0 +1,48 @@
+// Which planes a pixel tries, and which it may take. Twins: shaders/lib/plane_moves.glsl.
+#pragma once
+
+#include <vector>
+
+#include "engine/camera/camera.h"
+#include "engine/core/grid.h"
+#include "engine/depth/depth_planes.h"
+#include "shaders/layout.h"
+
+namespace quorum {
+
+/// No plane.
+constexpr PixelPlane kNoPlane{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0};
+
+/// The moves of all rounds, in their order. A round tries the planes of the neighbors at distance 1 and 3, then a step
+/// either way in depth and in both slopes. Steps begin with half a step of the first pass, and slopes with what moves
+/// the windows' borders by as much; they halve from round to round. window: side, pixels.
+std::vector<std::vector<PlaneMove>> plane_rounds(const DepthPlanes& planes, int window);
+
+/// Where the planes of a pixel may cross its ray.
+Grid<InverseDepthRange> inverse_depth_ranges(const Grid<PlaneRange>& ranges, const DepthPlanes& planes);
+
+/// The steepest slope that a plane may have, as a share of its inverse depth: 80 degrees between the plane and the
+/// image.
+float max_plane_tilt(const Camera& camera);
+
+/// The plane that a move tries at a pixel. best: the pixel's best plane so far. other: the plane of the last round at
+/// the offset. Nothing if there is no such plane, or if it did not change since it was tried.
+[[gnu::always_inline]] inline PlaneTrial move_plane(const PlaneMove& move, const PixelPlane& best,
+                                                    const PixelPlane& other) {
+  const bool from_neighbor = move.offset_x != 0 || move.offset_y != 0;
+  const PixelPlane& from = from_neighbor ? other : best;
+  if (from.inverse_depth == 0.0F || (from_neighbor && from.changed == 0)) return {0.0F, 0.0F, 0.0F, 0.0F, 0};
+  const float ahead =
+      static_cast<float>(move.offset_x) * from.slope_x + static_cast<float>(move.offset_y) * from.slope_y;
+  return {(from.inverse_depth - ahead) + move.inverse_depth, from.slope_x + move.slope_x, from.slope_y + move.slope_y,
+          0.0F, 0};
+}
+
+/// True if a pixel with this range may take the plane.
+[[gnu::always_inline]] inline bool may_take(const PlaneTrial& plane, const InverseDepthRange& range, float max_tilt) {
+  const float limit = max_tilt * plane.inverse_depth;
+  return plane.inverse_depth >= range.farthest && plane.inverse_depth <= range.nearest && plane.slope_x >= -limit &&
+         plane.slope_x <= limit && plane.slope_y >= -limit && plane.slope_y <= limit;
+}
+
+}  // namespace quorum

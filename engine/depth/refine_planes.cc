@@ -1,0 +1,136 @@
+#include "engine/depth/refine_planes.h"
+
+#include <oneapi/tbb/blocked_range2d.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+
+#include "engine/core/clock.h"
+#include "engine/depth/fit_planes.h"
+#include "engine/depth/reference_windows.h"
+#include "engine/depth/score_planes.h"
+#include "engine/depth/sweep_tile.h"
+
+namespace quorum {
+namespace {
+
+/// The planes of a view while they are refined.
+struct Refinement {
+  const SweepTask& task;
+  PlaneScorer scorer;
+  Grid<InverseDepthRange> ranges;
+  Grid<PixelPlane> last;  ///< of the last round
+  Grid<PixelPlane> best;  ///< so far
+  std::atomic<std::uint64_t> trials = 0;
+  std::atomic<std::uint64_t> samples = 0;
+};
+
+/// Scores a batch, and takes the winners.
+void take_winners(PlaneBatch& batch, Refinement& refinement) {
+  std::uint64_t samples = 0;
+  refinement.trials += static_cast<std::uint64_t>(batch.count);
+  score_planes(refinement.scorer, batch, samples);
+  refinement.samples += samples;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+    const PlaneTrial trial{batch.inverse_depth[i], batch.slope_x[i], batch.slope_y[i], batch.ncc_sum[i],
+                           batch.votes[i]};
+    refinement.best.at(batch.x[i], batch.y[i]) = taken_plane(trial, refinement.scorer.rule);
+  }
+  batch.count = 0;
+}
+
+/// Tries the plane that trial(x, y) gives at every pixel of a tile that may take it.
+template <typename Trial>
+void try_planes(const Tile& tile, const Trial& trial, Refinement& refinement) {
+  thread_local const auto batch = std::make_unique<PlaneBatch>();
+  for (int y = tile.y; y < tile.y_end; ++y) {
+    for (int x = tile.x; x < tile.x_end; ++x) {
+      const InverseDepthRange& range = refinement.ranges.at(x, y);
+      if (range.farthest > range.nearest) continue;
+      const PlaneTrial plane = trial(x, y);
+      if (plane.inverse_depth == 0.0F || !may_take(plane, range, refinement.task.max_tilt)) continue;
+      batch->add(x, y, plane, refinement.best.at(x, y).confidence);
+      if (batch->full()) take_winners(*batch, refinement);
+    }
+  }
+  take_winners(*batch, refinement);
+}
+
+template <typename Work>
+void for_each_tile(int width, int height, const CpuSweepOptions& cpu, const Work& work) {
+  const int columns = (width + cpu.tile_width - 1) / cpu.tile_width;
+  const int rows = (height + cpu.tile_height - 1) / cpu.tile_height;
+  tbb::parallel_for(tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1), [&](const auto& part) {
+    for (int row = part.rows().begin(); row < part.rows().end(); ++row)
+      for (int column = part.cols().begin(); column < part.cols().end(); ++column)
+        work(Tile{column * cpu.tile_width, row * cpu.tile_height, std::min((column + 1) * cpu.tile_width, width),
+                  std::min((row + 1) * cpu.tile_height, height)});
+  });
+}
+
+void end_round(Refinement& refinement) {
+  tbb::parallel_for(std::size_t{0}, refinement.best.values.size(), [&](std::size_t pixel) {
+    PixelPlane& last = refinement.last.values[pixel];
+    const bool changed = refinement.best.values[pixel].confidence > last.confidence;
+    last = refinement.best.values[pixel];
+    last.changed = changed ? 1 : 0;
+  });
+}
+
+}  // namespace
+
+Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& first_pass, const CpuSweepOptions& cpu,
+                               PassWork* work) {
+  const double cpu_start = foreground_cpu_seconds();
+  const int width = first_pass.width;
+  const int height = first_pass.height;
+  const Grid<ReferenceWindow> windows = make_reference_windows(*task.reference, task.options.window);
+  Refinement refinement{task,
+                        {task, windows, make_vote_rule(task.options, task.neighbor_count()), cpu.simd},
+                        inverse_depth_ranges(task.ranges, task.planes),
+                        Grid<PixelPlane>(width, height, kNoPlane),
+                        Grid<PixelPlane>(width, height, kNoPlane)};
+  const Grid<PlaneTrial> fitted = fit_planes(first_pass, task.planes);
+  for_each_tile(width, height, cpu, [&](const Tile& tile) {
+    try_planes(
+        tile, [&](int x, int y) { return fitted.at(x, y); }, refinement);
+  });
+  end_round(refinement);
+  for (const std::vector<PlaneMove>& round : plane_rounds(task.planes, task.options.window)) {
+    for_each_tile(width, height, cpu, [&](const Tile& tile) {
+      for (const PlaneMove& move : round) {
+        const auto trial = [&](int x, int y) {
+          const int other_x = x + move.offset_x;
+          const int other_y = y + move.offset_y;
+          const bool inside = refinement.last.contains(other_x, other_y);
+          return move_plane(move, refinement.best.at(x, y), inside ? refinement.last.at(other_x, other_y) : kNoPlane);
+        };
+        try_planes(tile, trial, refinement);
+      }
+    });
+    end_round(refinement);
+  }
+  if (work != nullptr) {
+    work->windows += refinement.trials * static_cast<std::uint64_t>(task.neighbor_count());
+    work->samples += refinement.samples;
+    work->cpu_seconds += foreground_cpu_seconds() - cpu_start;
+  }
+  return std::move(refinement.best);
+}
+
+DepthMap depth_map_from_planes(const Grid<PixelPlane>& planes) {
+  DepthMap map{Grid<float>(planes.width, planes.height), Grid<float>(planes.width, planes.height),
+               Grid<float>(planes.width, planes.height)};
+  for (std::size_t pixel = 0; pixel < planes.values.size(); ++pixel) {
+    const PixelPlane& plane = planes.values[pixel];
+    if (plane.inverse_depth == 0.0F) continue;
+    map.depth.values[pixel] = reciprocal(plane.inverse_depth);
+    map.correlation.values[pixel] = plane.correlation;
+    map.confidence.values[pixel] = std::min(plane.confidence, 1.0F);
+  }
+  return map;
+}
+
+}  // namespace quorum

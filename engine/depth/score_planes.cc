@@ -1,0 +1,245 @@
+// Loops run over the planes of a batch, with arrays for what differs between them, so that the compiler vectorizes
+// them; compiled for three instruction sets as the sweep is.
+#include "engine/depth/score_planes.h"
+
+#include <memory>
+
+#include "engine/core/check.h"
+#include "engine/core/exact.h"
+#include "engine/depth/plane_window.h"
+#include "engine/depth/window_ncc.h"
+
+namespace quorum {
+namespace {
+
+constexpr int kLanes = PlaneBatch::kCapacity;
+
+template <typename T>
+using Lanes = std::array<T, kLanes>;
+
+/// What a thread needs to score a batch against one neighbor.
+struct Workspace {
+  Lanes<std::int32_t> u, v, u_x, v_x, u_y, v_y, seen;  // WindowPlacement
+  Lanes<std::int32_t> fraction_x, fraction_y, texel_index;
+  Lanes<std::int32_t> reference_index;  // of the window's center
+  Lanes<std::uint32_t> texel[4];        // upper left, upper right, lower left, lower right
+  Lanes<std::uint32_t> reference;
+  Lanes<std::int32_t> sum_b[3];
+  Lanes<std::int32_t> squares, products;
+  Lanes<std::int32_t> sum_a[3];
+  Lanes<float> inverse_deviation;
+};
+
+[[gnu::always_inline]] inline void place_windows(const SweepTask& task, std::size_t neighbor, const PlaneBatch& batch,
+                                                 int radius, Workspace& work) {
+  const PlaneWarp warp = task.warps[neighbor];
+  const int width = task.neighbors[neighbor]->width;
+  const int height = task.neighbors[neighbor]->height;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+    const WindowPlacement at = place_window(warp, batch.x[i], batch.y[i], batch.inverse_depth[i], batch.slope_x[i],
+                                            batch.slope_y[i], radius, width, height);
+    const std::int32_t seen = -static_cast<std::int32_t>(at.seen);
+    work.seen[i] = seen;
+    work.u[i] = at.u & seen;
+    work.v[i] = at.v & seen;
+    work.u_x[i] = at.u_x & seen;
+    work.v_x[i] = at.v_x & seen;
+    work.u_y[i] = at.u_y & seen;
+    work.v_y[i] = at.v_y & seen;
+  }
+}
+
+[[gnu::always_inline]] inline void read_texels(const PaddedImage& reference, int reference_offset,
+                                               const PaddedImage& neighbor, int count, Workspace& work) {
+  const Rgba* reference_pixels = reference.pixels.data() + reference_offset;
+  const Rgba* pixels = neighbor.pixels.data();
+  const std::ptrdiff_t stride = neighbor.stride();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const Rgba* texel = pixels + work.texel_index[i];
+    work.texel[0][i] = texel[0];
+    work.texel[1][i] = texel[1];
+    work.texel[2][i] = texel[stride];
+    work.texel[3][i] = texel[stride + 1];
+    work.reference[i] = reference_pixels[work.reference_index[i]];
+  }
+}
+
+/// Adds one sample of every window. Interpolates as sample_bilinear(), red and blue in one word.
+[[gnu::always_inline]] inline void add_samples(int count, int shift, Workspace& work) {
+  constexpr std::uint32_t kRedBlue = 0x00ff00ffU;
+  const std::int32_t center = 1 << (23 - shift);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const auto fraction_x = static_cast<std::uint32_t>(work.fraction_x[i]);
+    const auto fraction_y = static_cast<std::uint32_t>(work.fraction_y[i]);
+    const auto along_x = [&](std::uint32_t left, std::uint32_t right) {
+      return (left << 8) + (right - left) * fraction_x;
+    };
+    const auto along_y = [&](std::uint32_t top, std::uint32_t bottom) {
+      return static_cast<std::int32_t>(((top << 8) + (bottom - top) * fraction_y) >> shift) - center;
+    };
+    const auto sample = [&](std::uint32_t value) { return static_cast<std::int32_t>((value << 16) >> shift) - center; };
+    const std::uint32_t top = along_x(work.texel[0][i] & kRedBlue, work.texel[1][i] & kRedBlue);
+    const std::uint32_t bottom = along_x(work.texel[2][i] & kRedBlue, work.texel[3][i] & kRedBlue);
+    const std::uint32_t top_green = along_x(green_of(work.texel[0][i]), green_of(work.texel[1][i]));
+    const std::uint32_t bottom_green = along_x(green_of(work.texel[2][i]), green_of(work.texel[3][i]));
+    const std::int32_t red = along_y(top & 0xffffU, bottom & 0xffffU);
+    const std::int32_t green = along_y(top_green, bottom_green);
+    const std::int32_t blue = along_y(top >> 16, bottom >> 16);
+    work.sum_b[0][i] += red;
+    work.sum_b[1][i] += green;
+    work.sum_b[2][i] += blue;
+    work.squares[i] += red * red + green * green + blue * blue;
+    work.products[i] += sample(red_of(work.reference[i])) * red + sample(green_of(work.reference[i])) * green +
+                        sample(blue_of(work.reference[i])) * blue;
+  }
+}
+
+[[gnu::always_inline]] inline void sum_windows(const SweepTask& task, std::size_t neighbor, int count, int radius,
+                                               int shift, Workspace& work) {
+  const PaddedImage& reference = *task.reference;
+  const PaddedImage& image = *task.neighbors[neighbor];
+  const auto lanes = static_cast<std::size_t>(count);
+  for (auto& sums : work.sum_b) std::fill_n(sums.begin(), count, 0);
+  std::fill_n(work.squares.begin(), count, 0);
+  std::fill_n(work.products.begin(), count, 0);
+  constexpr int kShift = kPlacementBits - kPositionBits;
+  const int stride = image.stride();
+  for (int dy = -radius; dy <= radius; ++dy) {
+    for (int dx = -radius; dx <= radius; ++dx) {
+      for (std::size_t i = 0; i < lanes; ++i) {
+        const std::int32_t u = (work.u[i] + (dx * work.u_x[i] + dy * work.u_y[i])) >> kShift;
+        const std::int32_t v = (work.v[i] + (dx * work.v_x[i] + dy * work.v_y[i])) >> kShift;
+        work.fraction_x[i] = u & (kPositionScale - 1);
+        work.fraction_y[i] = v & (kPositionScale - 1);
+        work.texel_index[i] = (v >> kPositionBits) * stride + (u >> kPositionBits);
+      }
+      read_texels(reference, dy * reference.stride() + dx, image, count, work);
+      add_samples(count, shift, work);
+    }
+  }
+}
+
+/// Adds one neighbor's votes. Same operations as ncc_from_sums().
+[[gnu::always_inline]] inline void vote_for_planes(int window, float threshold, const Workspace& work,
+                                                   PlaneBatch& batch) {
+  const double samples = window * window;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+    const double red = work.sum_b[0][i];
+    const double green = work.sum_b[1][i];
+    const double blue = work.sum_b[2][i];
+    const float covariance = float_from_integer(
+        samples * work.products[i] - (work.sum_a[0][i] * red + work.sum_a[1][i] * green + work.sum_a[2][i] * blue));
+    const float variance = float_from_integer(samples * work.squares[i] - (red * red + green * green + blue * blue));
+    float ncc = (covariance * work.inverse_deviation[i]) * reciprocal_sqrt(variance);
+    ncc = ncc < 1.0F ? ncc : 1.0F;
+    const bool hit = (ncc > threshold) & (work.seen[i] != 0);
+    batch.ncc_sum[i] += hit ? ncc : 0.0F;
+    batch.votes[i] += hit ? 1 : 0;
+  }
+}
+
+/// Keeps the planes that `left` neighbors more can still make win.
+void drop_losers(const PlaneScorer& scorer, int left, PlaneBatch& batch, Workspace& work) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+    if (!can_win(batch.ncc_sum[i], batch.votes[i], left, batch.least_confidence[i], scorer.rule)) continue;
+    if (kept != i) {
+      batch.x[kept] = batch.x[i];
+      batch.y[kept] = batch.y[i];
+      batch.inverse_depth[kept] = batch.inverse_depth[i];
+      batch.slope_x[kept] = batch.slope_x[i];
+      batch.slope_y[kept] = batch.slope_y[i];
+      batch.least_confidence[kept] = batch.least_confidence[i];
+      batch.ncc_sum[kept] = batch.ncc_sum[i];
+      batch.votes[kept] = batch.votes[i];
+      work.reference_index[kept] = work.reference_index[i];
+      for (auto& sum : work.sum_a) sum[kept] = sum[i];
+      work.inverse_deviation[kept] = work.inverse_deviation[i];
+    }
+    ++kept;
+  }
+  batch.count = static_cast<int>(kept);
+}
+
+[[gnu::always_inline]] inline void score_body(const PlaneScorer& scorer, PlaneBatch& batch, std::uint64_t& samples,
+                                              Workspace& work) {
+  const SweepTask& task = scorer.task;
+  const int window = task.options.window;
+  const int shift = kSampleShift + extra_sample_shift(window);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+    const ReferenceWindow& reference = scorer.windows.at(batch.x[i], batch.y[i]);
+    for (std::size_t channel = 0; channel < 3; ++channel) work.sum_a[channel][i] = reference.sum[channel];
+    work.inverse_deviation[i] = reference.inverse_deviation;
+    work.reference_index[i] = batch.y[i] * task.reference->stride() + batch.x[i];
+    batch.ncc_sum[i] = 0.0F;
+    batch.votes[i] = 0;
+  }
+  const int neighbors = task.neighbor_count();
+  for (int neighbor = 0; neighbor < neighbors && batch.count > 0; ++neighbor) {
+    place_windows(task, static_cast<std::size_t>(neighbor), batch, window / 2, work);
+    sum_windows(task, static_cast<std::size_t>(neighbor), batch.count, window / 2, shift, work);
+    vote_for_planes(window, scorer.rule.threshold, work, batch);
+    samples += static_cast<std::uint64_t>(batch.count) * static_cast<std::uint64_t>(window * window);
+    drop_losers(scorer, neighbors - 1 - neighbor, batch, work);
+  }
+}
+
+using ScoreFunction = void (*)(const PlaneScorer&, PlaneBatch&, std::uint64_t&, Workspace&);
+
+void score_baseline(const PlaneScorer& scorer, PlaneBatch& batch, std::uint64_t& samples, Workspace& work) {
+  score_body(scorer, batch, samples, work);
+}
+
+#ifdef __x86_64__
+[[gnu::target("arch=x86-64-v3")]] void score_avx2(const PlaneScorer& scorer, PlaneBatch& batch, std::uint64_t& samples,
+                                                  Workspace& work) {
+  score_body(scorer, batch, samples, work);
+}
+
+[[gnu::target("arch=x86-64-v4,prefer-vector-width=512")]] void score_avx512(const PlaneScorer& scorer,
+                                                                            PlaneBatch& batch, std::uint64_t& samples,
+                                                                            Workspace& work) {
+  score_body(scorer, batch, samples, work);
+}
+#endif
+
+ScoreFunction choose_score_function(SimdLevel simd) {
+#ifdef __x86_64__
+  if (simd == SimdLevel::kAvx512) return score_avx512;
+  if (simd == SimdLevel::kAvx2) return score_avx2;
+#endif
+  static_cast<void>(simd);
+  return score_baseline;
+}
+
+}  // namespace
+
+float plane_ncc(const SweepTask& task, int neighbor, int x, int y, const PlaneTrial& plane) {
+  const int window = task.options.window;
+  const int radius = window / 2;
+  const PaddedImage& image = *task.neighbors[static_cast<std::size_t>(neighbor)];
+  const WindowPlacement at = place_window(task.warps[static_cast<std::size_t>(neighbor)], x, y, plane.inverse_depth,
+                                          plane.slope_x, plane.slope_y, radius, image.width, image.height);
+  if (!at.seen) return kNoNcc;
+  const int extra_shift = extra_sample_shift(window);
+  WindowSums sums;
+  for (int dy = -radius; dy <= radius; ++dy) {
+    for (int dx = -radius; dx <= radius; ++dx) {
+      const int shift = kPlacementBits - kPositionBits;
+      const Sample a =
+          sample_bilinear(*task.reference, (x + dx) * kPositionScale, (y + dy) * kPositionScale, extra_shift);
+      const Sample b = sample_bilinear(image, (at.u + (dx * at.u_x + dy * at.u_y)) >> shift,
+                                       (at.v + (dx * at.v_x + dy * at.v_y)) >> shift, extra_shift);
+      add_sample(sums, a, b);
+    }
+  }
+  return ncc_from_sums(sums, window * window);
+}
+
+void score_planes(const PlaneScorer& scorer, PlaneBatch& batch, std::uint64_t& samples) {
+  QUORUM_CHECK_LE(static_cast<int>(scorer.simd), static_cast<int>(best_simd_level()));
+  thread_local const auto work = std::make_unique<Workspace>();
+  choose_score_function(scorer.simd)(scorer, batch, samples, *work);
+}
+
+}  // namespace quorum
