@@ -5,10 +5,10 @@
 
 #include "engine/evaluate/color_by_error.h"
 #include "engine/io/image_file.h"
-#include "engine/io/middlebury.h"
 #include "engine/io/ply.h"
+#include "engine/io/scene_folder.h"
 #include "engine/mesh/render.h"
-#include "tools/command.h"
+#include "tools/run_arguments.h"
 
 namespace quorum {
 namespace {
@@ -16,6 +16,7 @@ namespace {
 struct RenderArguments {
   std::filesystem::path mesh;
   std::filesystem::path scene;
+  SceneOptions files;
   std::string view;
   std::filesystem::path output;
   std::string shading = "shaded";
@@ -44,7 +45,7 @@ Expected<void> render_file(const RenderArguments& arguments) {
                     : arguments.shading == "confidence" ? Shading::kConfidence
                     : arguments.shading == "normal"     ? Shading::kNormal
                                                         : Shading::kShaded;
-  const auto scene = read_middlebury(arguments.scene, std::nullopt, {});
+  const auto scene = read_scene(arguments.scene, arguments.files);
   if (!scene) return std::unexpected(scene.error());
   const auto view = std::find_if(scene->views.begin(), scene->views.end(),
                                  [&](const View& candidate) { return candidate.name == arguments.view; });
@@ -65,6 +66,7 @@ int render_command(int argc, char** argv) {
   RenderArguments arguments;
   app.add_option("mesh", arguments.mesh, "PLY file")->required();
   app.add_option("--scene", arguments.scene, "Folder of the scene")->required();
+  add_format_options(app, arguments.files);
   app.add_option("--view", arguments.view, "Name of the view: its image file without extension")->required();
   app.add_option("-o,--output", arguments.output, "PNG file")->required();
   app.add_option("--shading", arguments.shading, "What to show")

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <optional>
 #include <thread>
 
 #include "engine/core/clock.h"
 #include "engine/core/memory.h"
 #include "engine/io/file.h"
-#include "engine/io/middlebury.h"
 #include "engine/pipeline/run_json.h"
 #include "tools/console_progress.h"
 #include "tools/open_backend.h"
@@ -74,6 +74,9 @@ Expected<void> resolve(RunArguments& arguments) {
     if (arguments.window_model == window_model_name(model)) options.sweep.window_model = model;
   if (arguments.no_slant && options.sweep.window_model == WindowModel::kSlanted)
     options.sweep.window_model = WindowModel::kPlane;
+  options.views.rule = arguments.view_rule == "points"  ? ViewRule::kPoints
+                       : arguments.view_rule == "angle" ? ViewRule::kAngle
+                                                        : ViewRule::kAutomatic;
   const auto length = [](const char* name, const std::string& text, double& value) -> Expected<void> {
     const auto parsed = parse_length(name, text);
     if (!parsed) return std::unexpected(parsed.error());
@@ -106,14 +109,27 @@ Expected<void> resolve(RunArguments& arguments) {
 
 }  // namespace
 
+void add_format_options(CLI::App& app, SceneOptions& files) {
+  const auto formats = scene_format_names();
+  std::map<std::string, SceneFormat> names(formats.begin(), formats.end());
+  app.add_option("--format", files.format, "How the cameras are written [what the folder shows]")
+      ->transform(CLI::CheckedTransformer(names, CLI::ignore_case).description("auto, middlebury, colmap"))
+      ->option_text("NAME");
+  app.add_option("--images", files.images, "Folder of the photographs [beside the cameras]");
+}
+
 void RunArguments::add_scene_and_output(CLI::App& app) {
   app.add_option("scene", scene,
-                 "Folder with the photographs and their cameras (Middlebury: *_par.txt, images, README.txt)")
+                 "Folder with the photographs and their cameras (Middlebury: *_par.txt, images, README.txt; "
+                 "COLMAP: images, sparse)")
       ->required();
   app.add_option("-o,--output", output, "Folder for the results; made if missing")->required();
-  app.add_option("--bounds", bounds, "Box that holds the object, x0 y0 z0 x1 y1 z1 [the box in README.txt]")
+  app.add_option("--bounds", bounds,
+                 "Box that holds the object, x0 y0 z0 x1 y1 z1 [Middlebury: README.txt; else found]")
       ->expected(1, 6);
-  app.add_option("--masks", masks, "Folder with a mask per image (a.png.png or a.png); black is left out");
+  app.add_option("--roi", files.roi, "The same box from a file: six numbers, or a .ply whose extent is taken");
+  app.add_option("--masks", files.masks, "Folder with a mask per image (a.jpg.png or a.png); black is left out");
+  add_format_options(app, files);
 }
 
 void RunArguments::add_depth_options(CLI::App& app) {
@@ -121,7 +137,13 @@ void RunArguments::add_depth_options(CLI::App& app) {
   app.add_option("--neighbors", options.views.neighbor_count, "Views that each view is compared with")
       ->capture_default_str()
       ->group(group);
-  app.add_option("--min-angle", options.views.min_angle_deg, "Least angle between compared views, degrees")
+  app.add_option("--views", view_rule,
+                 "How these are chosen. points: by shared sparse points; angle: the paper's rule; auto: as the scene's "
+                 "files say, else points, else angle")
+      ->check(CLI::IsMember({"auto", "points", "angle"}))
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--min-angle", options.views.min_angle_deg, "Least angle between views chosen by angle, degrees")
       ->capture_default_str()
       ->group(group);
   app.add_option("--max-angle", options.views.max_angle_deg, "Largest angle to a compared view, degrees")
@@ -227,7 +249,8 @@ Expected<void> run_pipeline(RunArguments& arguments, const PipelineStages& stage
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
 
   ConsoleProgress progress(arguments.quiet);
-  auto scene = read_middlebury(arguments.scene, *bounds, arguments.masks);
+  arguments.files.bounds = *bounds;
+  auto scene = read_scene(arguments.scene, arguments.files);
   if (!scene) return std::unexpected(scene.error());
   auto backend = open_backend(arguments.device, *cpu);
   if (!backend) return std::unexpected(backend.error());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/io/scene_folder.h"
 #include "engine/pipeline/reconstruct.h"
 #include "tools/command.h"
 
@@ -16,7 +17,8 @@ struct RunArguments {
   std::filesystem::path scene;
   std::filesystem::path output;
   std::vector<std::string> bounds;
-  std::filesystem::path masks;
+  SceneOptions files;
+  std::string view_rule = "auto";
   std::string device = "auto";
   int threads = 0;
   std::string memory = "auto";
@@ -39,6 +41,9 @@ struct RunArguments {
   void add_device_options(CLI::App& app);
   void add_device_and_output_options(CLI::App& app);
 };
+
+/// Adds --format and --images, which say how a scene's folder is to be read.
+void add_format_options(CLI::App& app, SceneOptions& files);
 
 /// One of the pipeline's stages, or several.
 using PipelineStages = std::function<Expected<void>(const Scene&, const ReconstructOptions&, Backend&, const Workspace&,

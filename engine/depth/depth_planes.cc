@@ -12,23 +12,44 @@ namespace {
 
 constexpr std::size_t kMaxPlanes = 65535;
 
-/// Largest motion of the projection in a neighbor, pixels per unit of inverse depth, over the corners and the center of
-/// the bounds.
+/// Points by which the motion of a projection is measured: for a view with a depth range a grid of its pixels at both
+/// ends of the range, else the corners and the center of the bounds.
+std::vector<Eigen::Vector3d> probe_points(const Scene& scene, const View& view) {
+  std::vector<Eigen::Vector3d> points;
+  if (view.far_depth > 0) {
+    constexpr int kSide = 5;
+    for (const double depth : {view.near_depth, view.far_depth})
+      for (int i = 0; i < kSide * kSide; ++i)
+        points.push_back(view.camera.unproject((view.width - 1.0) * (i % kSide) / (kSide - 1),
+                                               (view.height - 1.0) * (i / kSide) / (kSide - 1), depth));
+    return points;
+  }
+  for (int corner = 0; corner < 8; ++corner) points.push_back(scene.bounds.corner(corner));
+  points.push_back(scene.bounds.center());
+  return points;
+}
+
+bool shows(const View& view, const Eigen::Vector3d& pixel) {
+  return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= view.width - 1 && pixel.y() <= view.height - 1;
+}
+
+/// Largest motion of the projection in a neighbor, pixels per unit of inverse depth, over the probe points; with a
+/// depth range, where the neighbor shows them.
 double largest_motion(const Scene& scene, int reference, const std::vector<int>& neighbors) {
-  const Camera& camera = scene.views[static_cast<std::size_t>(reference)].camera;
+  const View& view = scene.views[static_cast<std::size_t>(reference)];
   double largest = 0.0;
-  for (int corner = 0; corner <= 8; ++corner) {
-    const Eigen::Vector3d point = corner < 8 ? scene.bounds.corner(corner) : scene.bounds.center();
-    const Eigen::Vector3d pixel = camera.project(point);
+  for (const Eigen::Vector3d& point : probe_points(scene, view)) {
+    const Eigen::Vector3d pixel = view.camera.project(point);
     if (pixel.z() <= 0) continue;
     const double inverse_depth = 1.0 / pixel.z();
     const double nudge = 1e-4 * inverse_depth;
-    const Eigen::Vector3d moved = camera.unproject(pixel.x(), pixel.y(), 1.0 / (inverse_depth + nudge));
+    const Eigen::Vector3d moved = view.camera.unproject(pixel.x(), pixel.y(), 1.0 / (inverse_depth + nudge));
     for (const int neighbor : neighbors) {
-      const Camera& other = scene.views[static_cast<std::size_t>(neighbor)].camera;
-      const Eigen::Vector3d from = other.project(point);
-      const Eigen::Vector3d to = other.project(moved);
-      if (from.z() > 0 && to.z() > 0) largest = std::max(largest, (to - from).head<2>().norm() / nudge);
+      const View& other = scene.views[static_cast<std::size_t>(neighbor)];
+      const Eigen::Vector3d from = other.camera.project(point);
+      const Eigen::Vector3d to = other.camera.project(moved);
+      if (from.z() <= 0 || to.z() <= 0 || (view.far_depth > 0 && !shows(other, from))) continue;
+      largest = std::max(largest, (to - from).head<2>().norm() / nudge);
     }
   }
   return largest;
@@ -53,6 +74,10 @@ Expected<DepthPlanes> make_depth_planes(const Scene& scene, int reference, const
   }
   if (far <= 0.0)
     return failure(ErrorKind::kInput, fmt::format("{}: the bounds lie behind this camera; check --bounds", view.name));
+  if (view.far_depth > 0) {
+    far = std::min(far, view.far_depth);
+    near = std::min(std::max(near, view.near_depth), far);
+  }
   near = std::max(near, far * 1e-3);  // a camera inside the bounds: start close before it
 
   DepthPlanes planes;

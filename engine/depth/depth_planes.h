@@ -23,7 +23,7 @@ struct DepthPlanes {
   [[nodiscard]] float step() const;
 };
 
-/// Planes that cover the bounds as seen from scene.views[reference].
+/// Planes that cover the bounds as seen from scene.views[reference], within the view's depth range if it has one.
 /// With options.depth_step the depths of the first pass are that far apart, as in the paper (4.1). Automatic: equally
 /// spaced in inverse depth, so that the projection of a point in the bounds moves by at most options.step_pixels in
 /// any of the neighbors from one plane of the first pass to the next.

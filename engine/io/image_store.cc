@@ -7,6 +7,7 @@
 
 #include "engine/core/check.h"
 #include "engine/io/image_file.h"
+#include "engine/io/undistort.h"
 
 namespace quorum {
 namespace {
@@ -16,15 +17,21 @@ std::size_t byte_count(const Grid<T>& grid) {
   return grid.values.size() * sizeof(T);
 }
 
-/// Decodes a file of a view with read, and requires the view's size.
+/// Decodes a file of a view with read, requires the size of its photograph, and undistorts it if the view has a lens.
 template <typename T>
 Expected<Grid<T>> load(const View& view, const std::filesystem::path& path,
-                       Expected<Grid<T>> (*read)(const std::filesystem::path&)) {
+                       Expected<Grid<T>> (*read)(const std::filesystem::path&),
+                       Expected<Grid<T>> (*undistort)(const Grid<T>&, const Lens&, const PinholePicture&)) {
+  const int width = view.lens ? view.lens->width : view.width;
+  const int height = view.lens ? view.lens->height : view.height;
   auto pixels = read(path);
-  if (!pixels || (pixels->width == view.width && pixels->height == view.height)) return pixels;
-  return failure(ErrorKind::kInput,
-                 fmt::format("{}: is {} x {}, expected {} x {} as the first image; replace it or leave its view out",
-                             path.string(), pixels->width, pixels->height, view.width, view.height));
+  if (!pixels) return pixels;
+  if (pixels->width != width || pixels->height != height)
+    return failure(ErrorKind::kInput,
+                   fmt::format("{}: is {} x {}, expected {} x {} for its camera; replace it or leave its view out",
+                               path.string(), pixels->width, pixels->height, width, height));
+  if (!view.lens) return pixels;
+  return undistort(*pixels, *view.lens, {view.camera.intrinsics, view.width, view.height});
 }
 
 }  // namespace
@@ -36,7 +43,7 @@ Expected<std::shared_ptr<const ColorImage>> ImageStore::image(int view) {
   const View& source = view_at(view);
   const Key key{Kind::kImage, view};
   if (auto kept = find(key)) return std::static_pointer_cast<const ColorImage>(kept);
-  auto loaded = load(source, source.image_path, read_image);
+  auto loaded = load(source, source.image_path, read_image, undistort_image);
   if (!loaded) return std::unexpected(std::move(loaded.error()));
   const std::size_t bytes = byte_count(*loaded);
   return std::static_pointer_cast<const ColorImage>(
@@ -68,7 +75,7 @@ Expected<Mask> ImageStore::load_mask(int view) {
   const View& source = view_at(view);
   Mask mask(source.width, source.height, 1);
   if (!source.mask_path.empty()) {
-    auto from_file = load(source, source.mask_path, read_mask);
+    auto from_file = load(source, source.mask_path, read_mask, undistort_mask);
     if (!from_file) return from_file;
     mask = std::move(*from_file);
   }

@@ -24,8 +24,8 @@ class ImageStore {
   /// exclude the background that mask_dark_background finds at this level.
   ImageStore(const Scene& scene, std::size_t budget_bytes, double mask_below = 0.0);
 
-  /// Photograph of a view (0 to views - 1). Fails (kInput) if its file is absent, does not decode, or has another size
-  /// than the view.
+  /// Image of a view (0 to views - 1): its photograph, undistorted if the view has a lens. Fails (kInput) if its file
+  /// is absent, does not decode, or has another size than the view or the lens says.
   Expected<std::shared_ptr<const ColorImage>> image(int view);
 
   /// Mask of a view: 1 where its mask file, if it has one, and the background mask, if that is on, both say that the

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <limits>
 #include <map>
 #include <vector>
 
 #include "engine/io/file.h"
 #include "engine/io/image_file.h"
+#include "engine/io/masks.h"
 #include "engine/io/par_file.h"
 #include "engine/io/text.h"
+#include "engine/scene/check_bounds.h"
 
 namespace quorum {
 namespace {
@@ -60,6 +61,7 @@ Expected<std::vector<View>> read_views(const fs::path& folder, const fs::path& p
   std::map<std::string, int> line_of;
   for (const ParLine& line : *lines) {
     View view;
+    view.image_name = line.image;
     view.image_path = folder / line.image;
     view.name = view.image_path.stem().string();
     view.camera = line.camera;
@@ -86,19 +88,6 @@ Expected<std::vector<View>> read_views(const fs::path& folder, const fs::path& p
     view.height = first->height;
   }
   return views;
-}
-
-Expected<void> find_masks(const fs::path& masks, std::vector<View>& views) {
-  std::error_code ignored;
-  if (!fs::is_directory(masks, ignored)) return path_failure(masks, "no such folder of masks; check the path");
-  for (View& view : views) {
-    const std::string image = view.image_path.filename().string();
-    for (const std::string& name : {view.name + ".png", image + ".png"})
-      if (fs::is_regular_file(masks / name, ignored)) view.mask_path = masks / name;
-    if (view.mask_path.empty())
-      return path_failure(masks, fmt::format("no mask {}.png or {}.png for view {}", image, view.name, view.name));
-  }
-  return {};
 }
 
 // --- The bounds
@@ -156,48 +145,6 @@ Expected<Bounds> read_bounds(const fs::path& readme) {
   return path_failure(readme, fmt::format("no \"bounding box\" with two lines \"(x y z)\"; {}", kBoundsRemedy));
 }
 
-/// True if the ray from a camera through a pixel meets the box.
-bool ray_meets(const Camera& camera, double x, double y, const Bounds& bounds) {
-  const Eigen::Vector3d origin = camera.center();
-  const Eigen::Vector3d ray = camera.unproject(x, y, 1.0) - origin;
-  double enter = 0.0;
-  double leave = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = (bounds.low[axis] - origin[axis]) / ray[axis];
-    const double b = (bounds.high[axis] - origin[axis]) / ray[axis];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-  }
-  return enter <= leave;
-}
-
-/// Tries 27 points of the box, which finds a small one, and 25 rays of the view, which find a large one.
-bool sees(const View& view, const Bounds& bounds) {
-  for (int i = 0; i < 27; ++i) {
-    const Eigen::Array3d fraction = Eigen::Array3d(i % 3, i / 3 % 3, i / 9) / 2.0;
-    const Eigen::Vector3d pixel = view.camera.project(bounds.low.array() + fraction * bounds.size().array());
-    if (pixel.z() > 0 && pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() <= view.width - 0.5 &&
-        pixel.y() <= view.height - 0.5)
-      return true;
-  }
-  for (int i = 0; i < 25; ++i)
-    if (ray_meets(view.camera, (view.width - 1) * (i % 5) / 4.0, (view.height - 1) * (i / 5) / 4.0, bounds))
-      return true;
-  return false;
-}
-
-Expected<void> check_bounds(const fs::path& folder, const Scene& scene) {
-  const Bounds& bounds = scene.bounds;
-  const std::string text = "bounds " + format_point(bounds.low) + " " + format_point(bounds.high);
-  if (!bounds.valid() || !bounds.low.allFinite() || !bounds.high.allFinite())
-    return path_failure(
-        folder, fmt::format("{} are empty: each low coordinate must be below the high one; {}", text, kBoundsRemedy));
-  if (std::ranges::none_of(scene.views, [&bounds](const View& view) { return sees(view, bounds); }))
-    return path_failure(folder,
-                        fmt::format("no view sees the {}; check their unit and frame, or {}", text, kBoundsRemedy));
-  return {};
-}
-
 }  // namespace
 
 Expected<Scene> read_middlebury(const fs::path& folder, const std::optional<Bounds>& bounds, const fs::path& masks) {
@@ -211,7 +158,8 @@ Expected<Scene> read_middlebury(const fs::path& folder, const std::optional<Boun
   const auto box = bounds ? *bounds : read_bounds(folder / "README.txt");
   if (!box) return std::unexpected(box.error());
   scene.bounds = *box;
-  if (const auto checked = check_bounds(folder, scene); !checked) return std::unexpected(checked.error());
+  if (const auto checked = check_bounds(scene); !checked)
+    return std::unexpected(checked.error().within(folder.string()));
   return scene;
 }
 

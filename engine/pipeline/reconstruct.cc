@@ -83,8 +83,10 @@ std::vector<ReferenceView> choose_references(const Scene& scene, const SelectVie
     }
     const std::string& name = view_at(scene, index).name;
     workspace.remove_depth_map(name);
-    progress.note(fmt::format("{}: has {} neighbor views within {} to {} degrees, needs 2; left out", name,
-                              neighbors.size(), options.min_angle_deg, options.max_angle_deg));
+    const bool by_angle = options.rule == ViewRule::kAngle || scene.points.empty();
+    const std::string apart =
+        by_angle ? fmt::format(" within {} to {} degrees", options.min_angle_deg, options.max_angle_deg) : "";
+    progress.note(fmt::format("{}: has {} neighbor views{}, needs 2; left out", name, neighbors.size(), apart));
   }
   return chosen;
 }
@@ -95,10 +97,18 @@ std::uint64_t view_bytes(const Scene& scene, const ReconstructOptions& options, 
   constexpr std::uint64_t kWrittenBytes = 32;  // a pixel: three maps, a file's bytes, pictures
   const auto neighbors = static_cast<std::uint64_t>(options.views.neighbor_count);
   const std::uint64_t task_bytes = 4 * (1 + neighbors) + 8 + 6;  // padded images, ranges; a photograph and its mask
+  constexpr std::uint64_t kDistortedBytes = 12;                  // a pixel of a photograph: file, decoded, in color
+  const auto area = [](int width, int height) {
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  };
   std::uint64_t pixels = 0;
-  for (const View& view : scene.views)
-    pixels = std::max(pixels, static_cast<std::uint64_t>(view.width) * static_cast<std::uint64_t>(view.height));
-  return (2 * task_bytes + kWrittenBytes) * pixels + backend.view_bytes(pixels, options.views.neighbor_count);
+  std::uint64_t distorted_pixels = 0;
+  for (const View& view : scene.views) {
+    pixels = std::max(pixels, area(view.width, view.height));
+    if (view.lens) distorted_pixels = std::max(distorted_pixels, area(view.lens->width, view.lens->height));
+  }
+  return (2 * task_bytes + kWrittenBytes) * pixels + kDistortedBytes * distorted_pixels +
+         backend.view_bytes(pixels, options.views.neighbor_count);
 }
 
 }  // namespace

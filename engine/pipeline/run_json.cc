@@ -21,7 +21,11 @@ Json weights_json(const FusionOptions& fusion) {
 
 Json json_of(const ReconstructOptions& options) {
   const auto automatic = [](double length) { return length > 0 ? Json(length) : Json("auto"); };
+  const char* rule = options.views.rule == ViewRule::kPoints  ? "points"
+                     : options.views.rule == ViewRule::kAngle ? "angle"
+                                                              : "auto";
   return {{"neighbors", options.views.neighbor_count},
+          {"views", rule},
           {"min_angle_deg", options.views.min_angle_deg},
           {"max_angle_deg", options.views.max_angle_deg},
           {"window", options.sweep.window},

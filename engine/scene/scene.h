@@ -1,29 +1,43 @@
-// A scene: views with known cameras, and the box that holds the object.
+// A scene: views with known cameras, sparse points that they see, and the box that holds the object.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/camera/camera.h"
+#include "engine/camera/lens.h"
 #include "engine/core/bounds.h"
 
 namespace quorum {
 
 /// One photograph with its camera. The image stays on disk until a stage needs it.
 struct View {
-  std::string name;                  ///< unique in the scene; the image's file name without extension
+  std::string name;                  ///< unique in the scene; names the view's files
+  std::string image_name = {};       ///< the photograph's path below the folder of images, as the scene's files say it
   std::filesystem::path image_path;  ///< the photograph
   std::filesystem::path mask_path;   ///< its mask, or empty
-  int width = 0;                     ///< pixels
+  int width = 0;                     ///< pixels, of the image that the stages work on
   int height = 0;                    ///< pixels
-  Camera camera;
+  Camera camera;                     ///< of that image
+  std::optional<Lens> lens = {};     ///< of the photograph, if it has to be undistorted to become that image
+  double near_depth = 0.0;           ///< least depth to look at, scene units
+  double far_depth = 0.0;            ///< largest depth to look at; 0 = the bounds alone say
+  std::vector<int> neighbors = {};   ///< to compare with, best first, if the scene's files name them
 };
 
-/// Views in the order of their files, and the bounds in scene units.
+/// A point of the object that several views see.
+struct SparsePoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< world, scene units
+  std::vector<int> views;                              ///< that see it, ascending, each once
+};
+
+/// Views in the order of their files, the bounds in scene units, and what is known of the surface beforehand.
 struct Scene {
   std::vector<View> views;
   Bounds bounds;
+  std::vector<SparsePoint> points = {};  ///< may be empty
 };
 
 }  // namespace quorum

@@ -8,13 +8,23 @@
 namespace quorum {
 namespace {
 
-/// Side of a pixel at the center of the bounds, in the middle of all views.
+/// Side of a pixel at a point; 0 behind the camera.
+double footprint(const Camera& camera, const Eigen::Vector3d& point) {
+  return std::max(0.0, 2.0 * camera.to_camera(point).z() / (camera.intrinsics(0, 0) + camera.intrinsics(1, 1)));
+}
+
+/// In the middle of all views of all points within the bounds, or, without points, at the center of the bounds.
 double median_footprint(const Scene& scene) {
   std::vector<double> footprints;
-  for (const View& view : scene.views) {
-    const double depth = view.camera.to_camera(scene.bounds.center()).z();
-    if (depth > 0) footprints.push_back(2.0 * depth / (view.camera.intrinsics(0, 0) + view.camera.intrinsics(1, 1)));
-  }
+  const auto add = [&footprints](const Camera& camera, const Eigen::Vector3d& point) {
+    if (const double side = footprint(camera, point); side > 0) footprints.push_back(side);
+  };
+  for (const SparsePoint& point : scene.points)
+    if ((point.position.array() >= scene.bounds.low.array()).all() &&
+        (point.position.array() <= scene.bounds.high.array()).all())
+      for (const int view : point.views) add(scene.views[static_cast<std::size_t>(view)].camera, point.position);
+  if (footprints.empty())
+    for (const View& view : scene.views) add(view.camera, scene.bounds.center());
   if (footprints.empty()) return 0.0;
   const auto middle = footprints.begin() + static_cast<std::ptrdiff_t>(footprints.size() / 2);
   std::nth_element(footprints.begin(), middle, footprints.end());

@@ -33,15 +33,16 @@ struct VoxelGrid {
   }
 };
 
-/// The lattice over the scene's bounds and one truncation more on each side. Automatic voxel size: the median over the
-/// views of a pixel's footprint at the center of the bounds; automatic truncation: 4 voxels.
+/// The lattice over the scene's bounds and one truncation more on each side. Automatic voxel size: the median of a
+/// pixel's footprint at the sparse points within the bounds, over the views that see them, or, without points, at the
+/// center of the bounds, over all views; automatic truncation: 4 voxels.
 /// Fails (kUsage) if the grid would have more than 2^30 blocks, or the truncation is out of 1.5..32 voxels.
 Expected<VoxelGrid> make_voxel_grid(const Scene& scene, const FusionOptions& options);
 
 /// One voxel: sums over the views that saw it. Integers, so the order of the views does not matter.
 struct Voxel {
-  std::int32_t weight = 0;     ///< in 1 / kWeightScale
-  std::int32_t distance = 0;   ///< weight · signed distance in truncation / kDistanceScale; positive before the surface
+  std::int32_t weight = 0;    ///< in 1 / kWeightScale
+  std::int32_t distance = 0;  ///< weight · signed distance in truncation / kDistanceScale; positive before the surface
   std::int32_t color[3] = {};  ///< weight · red, green, blue in 8 bits
 };
 static_assert(sizeof(Voxel) == kVoxelWords * 4);

@@ -84,7 +84,7 @@ TEST_F(ImageStoreTest, FailureIsNotRemembered) {
 TEST_F(ImageStoreTest, SizeMustBeThatOfTheView) {
   ASSERT_TRUE(write_png(scene_.views[1].image_path, ColorImage(32, 24)));
   ImageStore store(scene_, 1 << 20, 0.1);
-  expect_bad_input(store.image(1), {"1.png: is 32 x 24, expected 40 x 30 as the first image"});
+  expect_bad_input(store.image(1), {"1.png: is 32 x 24, expected 40 x 30 for its camera"});
   expect_bad_input(store.mask(1), {"1.png: is 32 x 24"});
   ASSERT_TRUE(write_png(scene_.views[2].image_path, ColorImage(kWidth, 24)));
   expect_bad_input(store.image(2), {"2.png: is 40 x 24, expected 40 x 30"});

@@ -1,0 +1,50 @@
+// A lens that bends its picture, in the models of OpenCV and COLMAP, and the pinhole camera that replaces it.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+namespace quorum {
+
+/// Maps a ray (x / z, y / z in the camera frame) to a pixel of the photograph as it was taken. Pixels as in camera.h:
+/// the center of the top-left one is (0, 0).
+struct Lens {
+  enum class Model {
+    kRadial,   ///< Brown 1971 with a rational radial term: coefficients k1 k2 p1 p2 k3 k4 k5 k6 (OpenCV's order)
+    kFisheye,  ///< Kannala and Brandt 2006: the angle to the axis is bent by coefficients k1 k2 k3 k4
+  };
+  Model model = Model::kRadial;
+  int width = 0;                                        ///< of the photograph, pixels
+  int height = 0;                                       ///< of the photograph, pixels
+  Eigen::Vector2d focal = Eigen::Vector2d::Ones();      ///< pixels along x and y
+  Eigen::Vector2d principal = Eigen::Vector2d::Zero();  ///< pixels
+  std::array<double, 8> coefficients = {0, 0, 0, 0, 0, 0, 0, 0};
+
+  /// Pixel at which the lens shows a ray.
+  [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector2d& ray) const;
+  /// The ray that the lens shows at a pixel, by Newton's method; nothing if no ray before the camera is shown there, or
+  /// if the model folds over before it.
+  [[nodiscard]] std::optional<Eigen::Vector2d> unproject(const Eigen::Vector2d& pixel) const;
+  /// True if the picture is a pinhole's already.
+  [[nodiscard]] bool is_pinhole() const;
+
+ private:
+  [[nodiscard]] Eigen::Vector2d bend(const Eigen::Vector2d& ray) const;
+};
+
+/// A picture without distortion.
+struct PinholePicture {
+  Eigen::Matrix3d intrinsics = Eigen::Matrix3d::Identity();  ///< K, pixels
+  int width = 0;                                             ///< pixels
+  int height = 0;                                            ///< pixels
+};
+
+/// The pinhole picture that a lens's photograph is resampled to. The focal lengths stay, so the center keeps its
+/// resolution; the picture is the largest one around the principal point with every side within the photograph, at most
+/// 60 degrees from the axis and a width or height of the photograph away on each side; smaller where the lens's model
+/// folds over within it. So it has no pixels without content, and what lies outside of it is lost. Nothing if the lens
+/// shows no such picture (its coefficients are absurd).
+std::optional<PinholePicture> pinhole_picture(const Lens& lens);
+
+}  // namespace quorum

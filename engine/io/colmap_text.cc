@@ -1,0 +1,145 @@
+// The files of a COLMAP model as .txt: a record a line (an image: two lines), # for comments.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/io/colmap_files.h"
+#include "engine/io/text.h"
+
+namespace quorum {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The fields of one line, taken one after the other; the first that is wrong is kept for the message.
+class Fields {
+ public:
+  Fields(const fs::path& path, int line, std::string_view text)
+      : path_(path), line_(line), tokens_(split_tokens(text)) {}
+
+  template <typename T>
+  T number(std::string_view name) {
+    if (place_ >= tokens_.size()) {
+      fail(fmt::format("{} is missing", name));
+      return T{};
+    }
+    const std::string_view token = tokens_[place_++];
+    const auto value = parse_number<T>(token);
+    if (!value) fail(fmt::format("{} = {} is not a number in range", name, quote_token(token)));
+    return value.value_or(T{});
+  }
+  std::string_view word(std::string_view name) {
+    if (place_ < tokens_.size()) return tokens_[place_++];
+    fail(fmt::format("{} is missing", name));
+    return {};
+  }
+  [[nodiscard]] std::size_t left() const { return tokens_.size() - place_; }
+  /// From the next token to the end of the last one.
+  std::string_view rest() {
+    if (left() == 0) return {};
+    const char* begin = tokens_[place_].data();
+    const char* end = tokens_.back().data() + tokens_.back().size();
+    place_ = tokens_.size();
+    return {begin, static_cast<std::size_t>(end - begin)};
+  }
+  void fail(std::string message) {
+    if (problem_.empty()) problem_ = std::move(message);
+  }
+  /// The first failure, or that of fields left over.
+  [[nodiscard]] Expected<void> done() {
+    if (left() > 0) fail(fmt::format("{} fields are left over", left()));
+    if (problem_.empty()) return {};
+    return failure_at_line(path_, line_, problem_);
+  }
+
+ private:
+  const fs::path& path_;
+  int line_;
+  std::vector<std::string_view> tokens_;
+  std::size_t place_ = 0;
+  std::string problem_;
+};
+
+/// The next line that is neither blank nor a comment.
+std::optional<std::string_view> next_record(LineReader& lines) {
+  auto line = lines.next_filled();
+  while (line && (*line)[line->find_first_not_of(kTextSpace)] == '#') line = lines.next_filled();
+  return line;
+}
+
+}  // namespace
+
+Expected<std::vector<ColmapCamera>> parse_colmap_cameras_txt(const fs::path& path, std::string_view text) {
+  std::vector<ColmapCamera> cameras;
+  LineReader lines(text);
+  while (const auto line = next_record(lines)) {
+    Fields fields(path, lines.number(), *line);
+    ColmapCamera camera;
+    camera.id = fields.number<std::uint32_t>("CAMERA_ID");
+    const std::string_view model = fields.word("MODEL");
+    camera.width = fields.number<int>("WIDTH");
+    camera.height = fields.number<int>("HEIGHT");
+    for (const ColmapCameraModel& known : colmap_camera_models())
+      if (known.name == model) camera.model = &known;
+    if (camera.model == nullptr)
+      fields.fail(fmt::format("the camera model {} is not known; use image_undistorter", quote_token(model)));
+    for (std::size_t i = 0; camera.model != nullptr && i < camera.model->parameter_count(); ++i)
+      camera.parameters.push_back(fields.number<double>("a parameter"));
+    if (auto done = fields.done(); !done) return std::unexpected(done.error());
+    cameras.push_back(std::move(camera));
+  }
+  return cameras;
+}
+
+Expected<std::vector<ColmapImage>> parse_colmap_images_txt(const fs::path& path, std::string_view text) {
+  std::vector<ColmapImage> images;
+  LineReader lines(text);
+  while (const auto line = next_record(lines)) {
+    Fields fields(path, lines.number(), *line);
+    ColmapImage image;
+    image.id = fields.number<std::uint32_t>("IMAGE_ID");
+    for (double& value : image.rotation) value = fields.number<double>("a quaternion's value");
+    for (int axis = 0; axis < 3; ++axis) image.translation(axis) = fields.number<double>("a translation's value");
+    image.camera_id = fields.number<std::uint32_t>("CAMERA_ID");
+    image.name = fields.rest();
+    if (image.name.empty()) fields.fail("NAME is missing");
+    if (auto done = fields.done(); !done) return std::unexpected(done.error());
+
+    const auto second = lines.next();  // blank if the image has no features
+    Fields features(path, lines.number(), second.value_or(""));
+    if (!second) features.fail("the line with the features of the image is missing");
+    while (features.left() > 0) {
+      ColmapObservation observation;
+      observation.pixel.x() = features.number<double>("X");
+      observation.pixel.y() = features.number<double>("Y");
+      const auto point = features.number<std::int64_t>("POINT3D_ID");
+      observation.point_id = static_cast<std::uint64_t>(point);
+      if (point >= 0) image.observations.push_back(observation);
+    }
+    if (auto done = features.done(); !done) return std::unexpected(done.error());
+    images.push_back(std::move(image));
+  }
+  return images;
+}
+
+Expected<std::vector<ColmapPoint>> parse_colmap_points_txt(const fs::path& path, std::string_view text) {
+  std::vector<ColmapPoint> points;
+  LineReader lines(text);
+  while (const auto line = next_record(lines)) {
+    Fields fields(path, lines.number(), *line);
+    ColmapPoint point;
+    point.id = fields.number<std::uint64_t>("POINT3D_ID");
+    for (int axis = 0; axis < 3; ++axis) point.position(axis) = fields.number<double>("a coordinate");
+    for (std::uint8_t& channel : point.color) channel = fields.number<std::uint8_t>("a color");
+    fields.number<double>("ERROR");
+    while (fields.left() > 0) {
+      point.image_ids.push_back(fields.number<std::uint32_t>("IMAGE_ID"));
+      fields.number<std::uint32_t>("POINT2D_IDX");
+    }
+    if (auto done = fields.done(); !done) return std::unexpected(done.error());
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+}  // namespace quorum

@@ -1,0 +1,25 @@
+#include "engine/io/masks.h"
+
+#include <fmt/format.h>
+
+namespace quorum {
+
+Expected<void> find_masks(const std::filesystem::path& masks, std::vector<View>& views) {
+  namespace fs = std::filesystem;
+  const auto refuse = [&masks](std::string_view message) {
+    return failure(ErrorKind::kInput, fmt::format("{}: {}", masks.string(), message));
+  };
+  std::error_code ignored;
+  if (!fs::is_directory(masks, ignored)) return refuse("no such folder of masks; check the path");
+  for (View& view : views) {
+    const std::string with_extension = view.image_name + ".png";
+    const std::string alone = fs::path(view.image_name).replace_extension(".png").string();
+    for (const std::string& name : {alone, with_extension})
+      if (fs::is_regular_file(masks / name, ignored)) view.mask_path = masks / name;
+    if (view.mask_path.empty())
+      return refuse(fmt::format("no mask {} or {} for view {}", with_extension, alone, view.name));
+  }
+  return {};
+}
+
+}  // namespace quorum
