@@ -12,6 +12,9 @@
 #include "engine/core/clock.h"
 #include "engine/core/memory.h"
 #include "engine/io/file.h"
+#include "engine/io/ply.h"
+#include "engine/pipeline/colmap_workspace.h"
+#include "engine/pipeline/fuse_points.h"
 #include "engine/pipeline/run_json.h"
 #include "tools/console_progress.h"
 #include "tools/open_backend.h"
@@ -130,6 +133,8 @@ void RunArguments::add_scene_and_output(CLI::App& app) {
   app.add_option("--roi", files.roi, "The same box from a file: six numbers, or a .ply whose extent is taken");
   app.add_option("--masks", files.masks, "Folder with a mask per image (a.jpg.png or a.png); black is left out");
   add_format_options(app, files);
+  app.add_flag("--cloud", cloud, "Also fuse the depth maps to a cloud of points, fused.ply");
+  app.add_flag("--colmap", colmap, "Also write colmap/, a dense workspace for `colmap stereo_fusion`");
 }
 
 void RunArguments::add_depth_options(CLI::App& app) {
@@ -238,6 +243,24 @@ void RunArguments::add_device_and_output_options(CLI::App& app) {
       ->group(kDeviceGroup);
 }
 
+namespace {
+
+/// What is made of the depth maps beside the mesh.
+Expected<void> write_extras(const RunArguments& arguments, const Scene& scene, const Workspace& workspace,
+                            Progress& progress, RunReport& report) {
+  if (arguments.cloud) {
+    const StageTimer timer(report, "fuse_points");
+    const auto cloud = fuse_points(scene, arguments.options, workspace, progress);
+    if (!cloud) return std::unexpected(cloud.error());
+    if (auto written = write_ply(workspace.cloud_path(), *cloud); !written) return written;
+  }
+  if (!arguments.colmap) return {};
+  const StageTimer timer(report, "write_colmap");
+  return write_colmap_workspace(workspace.colmap_path(), scene, arguments.options, workspace, progress);
+}
+
+}  // namespace
+
 Expected<void> run_pipeline(RunArguments& arguments, const PipelineStages& stages) {
   if (auto resolved = resolve(arguments); !resolved) return resolved;
   auto bounds = parse_bounds(arguments.bounds);
@@ -263,6 +286,7 @@ Expected<void> run_pipeline(RunArguments& arguments, const PipelineStages& stage
   const double wall_start = wall_seconds();
   const double cpu_start = process_cpu_seconds();
   auto done = stages(*scene, arguments.options, **backend, *workspace, progress, report);
+  if (done) done = write_extras(arguments, *scene, *workspace, progress, report);
   report.wall_seconds = wall_seconds() - wall_start;
   report.cpu_seconds = process_cpu_seconds() - cpu_start;
   progress.finish();

@@ -31,6 +31,8 @@ struct RunArguments {
   std::string truncation = "auto";
   std::vector<std::string> weights = {"confidence", "slant", "border"};
   std::string min_confidence = "auto";
+  bool cloud = false;
+  bool colmap = false;
   bool quiet = false;
   bool json = false;
   ReconstructOptions options;

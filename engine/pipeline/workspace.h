@@ -13,6 +13,7 @@ namespace quorum {
 ///   depth/NAME.depth.pfm .correlation.pfm .confidence.pfm   float maps
 ///   depth/NAME.depth.png .correlation.png .confidence.png   previews
 ///   mesh.ply, run.json
+///   fused.ply, colmap/                                      a cloud, and a dense workspace for COLMAP, if asked for
 class Workspace {
  public:
   /// Makes the folder. Fails (kInput) if it can't be made or written to.
@@ -20,6 +21,8 @@ class Workspace {
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] std::filesystem::path mesh_path() const { return folder_ / "mesh.ply"; }
+  [[nodiscard]] std::filesystem::path cloud_path() const { return folder_ / "fused.ply"; }
+  [[nodiscard]] std::filesystem::path colmap_path() const { return folder_ / "colmap"; }
   [[nodiscard]] std::filesystem::path report_path() const { return folder_ / "run.json"; }
 
   /// True if a depth map of this view was saved.

@@ -1,0 +1,187 @@
+#include "engine/pipeline/colmap_workspace.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/io/colmap_map.h"
+#include "engine/io/colmap_model.h"
+#include "engine/io/file.h"
+#include "engine/io/image_file.h"
+#include "engine/io/image_store.h"
+#include "engine/volume/depth_normals.h"
+
+namespace quorum {
+namespace {
+
+namespace fs = std::filesystem;
+
+const View& view_at(const Scene& scene, int index) { return scene.views[static_cast<std::size_t>(index)]; }
+
+/// Whether photographs have to be written anew.
+bool undistorts(const Scene& scene) {
+  return std::ranges::any_of(scene.views, [](const View& view) { return view.lens.has_value(); });
+}
+
+/// Names of the images in the workspace. New files are named after the view.
+std::vector<std::string> image_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const View& view : scene.views) names.push_back(undistorts(scene) ? view.name + ".png" : view.image_name);
+  return names;
+}
+
+Expected<void> write_images(const fs::path& folder, const Scene& scene, const std::vector<std::string>& names) {
+  ImageStore images(scene, 0);
+  for (std::size_t index = 0; index < names.size(); ++index) {
+    const fs::path path = folder / names[index];
+    if (auto made = make_folder(path.parent_path()); !made) return made;
+    Expected<void> written;
+    if (undistorts(scene)) {
+      const auto image = images.image(static_cast<int>(index));
+      if (!image) return std::unexpected(image.error());
+      written = write_png(path, **image);
+    } else {
+      const auto bytes = read_file(scene.views[index].image_path);
+      if (!bytes) return std::unexpected(bytes.error());
+      written = write_file(path, *bytes);
+    }
+    if (!written) return written;
+  }
+  return {};
+}
+
+/// Views that have a depth map and those that each is compared with.
+struct Reference {
+  int view = 0;
+  std::vector<int> neighbors;
+};
+
+std::vector<Reference> references_of(const Scene& scene, const ReconstructOptions& options,
+                                     const Workspace& workspace) {
+  std::vector<Reference> references;
+  for (int view = 0; view < static_cast<int>(scene.views.size()); ++view)
+    if (workspace.has_depth_map(view_at(scene, view).name))
+      references.push_back({view, select_views(scene, view, options.views)});
+  return references;
+}
+
+Expected<DepthMap> load(const Scene& scene, const Workspace& workspace, int view) {
+  const View& source = view_at(scene, view);
+  return workspace.load_depth_map(source.name, source.width, source.height);
+}
+
+/// Adds points of one depth map, on a grid of its pixels, with the neighbors whose maps agree within a hundredth.
+Expected<void> add_points(const Scene& scene, const Workspace& workspace, const Reference& reference,
+                          const Grid<float>& depth, std::vector<SparsePoint>& points) {
+  constexpr int kStep = 8;
+  constexpr double kAgreement = 0.01;
+  const std::size_t first = points.size();
+  for (int y = kStep / 2; y < depth.height; y += kStep)
+    for (int x = kStep / 2; x < depth.width; x += kStep)
+      if (const float d = depth.at(x, y); d > 0.0F)
+        points.push_back(
+            {view_at(scene, reference.view).camera.unproject(x, y, static_cast<double>(d)), {reference.view}});
+  for (const int neighbor : reference.neighbors) {
+    const View& view = view_at(scene, neighbor);
+    if (!workspace.has_depth_map(view.name)) continue;
+    const auto other = load(scene, workspace, neighbor);
+    if (!other) return std::unexpected(other.error());
+    for (std::size_t i = first; i < points.size(); ++i) {
+      const Eigen::Vector3d pixel = view.camera.project(points[i].position);
+      const int x = static_cast<int>(std::lround(std::clamp(pixel.x(), -1e6, 1e6)));
+      const int y = static_cast<int>(std::lround(std::clamp(pixel.y(), -1e6, 1e6)));
+      if (!(pixel.z() > 0) || !other->depth.contains(x, y)) continue;
+      const double found = static_cast<double>(other->depth.at(x, y));
+      if (std::abs(found - pixel.z()) < kAgreement * pixel.z()) points[i].views.push_back(neighbor);
+    }
+  }
+  for (std::size_t i = first; i < points.size(); ++i) std::ranges::sort(points[i].views);
+  return {};
+}
+
+ColmapModel make_model(const Scene& scene, const std::vector<std::string>& names,
+                       const std::vector<SparsePoint>& points) {
+  constexpr int kPinhole = 1;
+  const auto models = colmap_camera_models();
+  const auto pinhole = std::ranges::find(models, kPinhole, &ColmapCameraModel::id);
+  ColmapModel model;
+  for (std::uint32_t index = 0; index < scene.views.size(); ++index) {
+    const View& view = scene.views[index];
+    const Eigen::Matrix3d& k = view.camera.intrinsics;
+    model.cameras.push_back(
+        {index + 1, &*pinhole, view.width, view.height, {k(0, 0), k(1, 1), k(0, 2) + 0.5, k(1, 2) + 0.5}});
+    const Eigen::Quaterniond q(view.camera.camera_from_world);
+    model.images.push_back(
+        {index + 1, {q.w(), q.x(), q.y(), q.z()}, view.camera.translation, index + 1, names[index], {}});
+  }
+  std::uint64_t id = 0;
+  for (const SparsePoint& point : points) {
+    model.points.push_back({++id, point.position, {128, 128, 128}, {}});
+    for (const int view : point.views) {
+      const Eigen::Vector3d pixel = view_at(scene, view).camera.project(point.position);
+      model.images[static_cast<std::size_t>(view)].observations.push_back({pixel.head<2>().array() + 0.5, id});
+    }
+  }
+  return model;
+}
+
+Expected<void> write_lists(const fs::path& stereo, const std::vector<std::string>& names,
+                           const std::vector<Reference>& references) {
+  std::string pairs;
+  std::string fused;
+  for (const Reference& reference : references) {
+    const std::string& name = names[static_cast<std::size_t>(reference.view)];
+    fused += name + "\n";
+    pairs += name + "\n";
+    const char* separator = "";
+    for (const int neighbor : reference.neighbors) {
+      pairs += separator + names[static_cast<std::size_t>(neighbor)];
+      separator = ", ";
+    }
+    pairs += "\n";
+  }
+  if (auto written = write_file(stereo / "patch-match.cfg", pairs); !written) return written;
+  return write_file(stereo / "fusion.cfg", fused);
+}
+
+}  // namespace
+
+Expected<void> write_colmap_workspace(const fs::path& folder, const Scene& scene, const ReconstructOptions& options,
+                                      const Workspace& workspace, Progress& progress) {
+  for (const View& view : scene.views)
+    if (view.camera.intrinsics(0, 1) != 0.0)
+      return failure(ErrorKind::kInput,
+                     fmt::format("{}: its camera has skew, which COLMAP's workspaces have not", view.name));
+  const std::vector<Reference> references = references_of(scene, options, workspace);
+  if (references.empty())
+    return failure(ErrorKind::kInput, fmt::format("{}: holds no depth map of this scene; run `quorum depth` first",
+                                                  (workspace.folder() / "depth").string()));
+  for (const char* name : {"images", "sparse", "stereo/depth_maps", "stereo/normal_maps", "stereo/consistency_graphs"})
+    if (auto made = make_folder(folder / name); !made) return made;
+  const std::vector<std::string> names = image_names(scene);
+  progress.stage("writing for COLMAP", static_cast<int>(references.size()));
+  std::vector<SparsePoint> points = scene.points;
+  for (const Reference& reference : references) {
+    if (progress.stop_requested()) return failure(ErrorKind::kStopped, "stopped as asked; finished files are kept");
+    const auto map = load(scene, workspace, reference.view);
+    if (!map) return std::unexpected(map.error());
+    if (scene.points.empty())
+      if (auto added = add_points(scene, workspace, reference, map->depth, points); !added) return added;
+    const std::string file = names[static_cast<std::size_t>(reference.view)] + ".geometric.bin";
+    const Camera& camera = view_at(scene, reference.view).camera;
+    for (const char* maps : {"depth_maps", "normal_maps"})
+      if (auto made = make_folder((folder / "stereo" / maps / file).parent_path()); !made) return made;
+    if (auto written = write_colmap_map(folder / "stereo/depth_maps" / file, map->depth); !written) return written;
+    if (auto written = write_colmap_map(folder / "stereo/normal_maps" / file, depth_normals(map->depth, camera));
+        !written)
+      return written;
+    progress.step();
+  }
+  if (auto written = write_images(folder / "images", scene, names); !written) return written;
+  if (auto written = write_colmap_model(folder / "sparse", make_model(scene, names, points)); !written) return written;
+  return write_lists(folder / "stereo", names, references);
+}
+
+}  // namespace quorum

@@ -1,0 +1,26 @@
+// Depth maps as a dense workspace of COLMAP, on which `colmap stereo_fusion` and `colmap poisson_mesher` go on. Neither
+// needs CUDA.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/pipeline/progress.h"
+#include "engine/pipeline/reconstruct.h"
+
+namespace quorum {
+
+/// Writes what COLMAP's image_undistorter and patch_match_stereo would leave in folder:
+///   images/               the photographs, as they are or undistorted (.png)
+///   sparse/*.bin          cameras (PINHOLE), poses, and points with the views that see them
+///   stereo/depth_maps/    NAME.geometric.bin of every view with a depth map
+///   stereo/normal_maps/   likewise, from the depth maps (depth_normals)
+///   stereo/patch-match.cfg, stereo/fusion.cfg
+/// stereo_fusion compares views that share points. A scene without points gets some from its depth maps: a grid of
+/// pixels, seen by the neighbors whose depth map agrees.
+/// Fails (kInput) if a file can't be read or written, there is no depth map, or a camera has skew, which PINHOLE has
+/// not; and (kStopped).
+Expected<void> write_colmap_workspace(const std::filesystem::path& folder, const Scene& scene,
+                                      const ReconstructOptions& options, const Workspace& workspace,
+                                      Progress& progress);
+
+}  // namespace quorum
