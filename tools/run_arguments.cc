@@ -116,15 +116,19 @@ void add_format_options(CLI::App& app, SceneOptions& files) {
   const auto formats = scene_format_names();
   std::map<std::string, SceneFormat> names(formats.begin(), formats.end());
   app.add_option("--format", files.format, "How the cameras are written [what the folder shows]")
-      ->transform(CLI::CheckedTransformer(names, CLI::ignore_case).description("auto, middlebury, colmap"))
+      ->transform(CLI::CheckedTransformer(names, CLI::ignore_case)
+                      .description("auto, middlebury, colmap, transforms, mvsnet, bundler"))
       ->option_text("NAME");
   app.add_option("--images", files.images, "Folder of the photographs [beside the cameras]");
+  app.add_option("--max-image-size", files.max_image_size,
+                 "Halve photographs until no side has more pixels than this; 0: keep all")
+      ->capture_default_str();
 }
 
 void RunArguments::add_scene_and_output(CLI::App& app) {
   app.add_option("scene", scene,
                  "Folder with the photographs and their cameras (Middlebury: *_par.txt, images, README.txt; "
-                 "COLMAP: images, sparse)")
+                 "COLMAP: images, sparse; nerfstudio, MVSNet, Bundler)")
       ->required();
   app.add_option("-o,--output", output, "Folder for the results; made if missing")->required();
   app.add_option("--bounds", bounds,

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "engine/core/check.h"
+#include "engine/image/halve.h"
 #include "engine/io/image_file.h"
 #include "engine/io/undistort.h"
 
@@ -17,21 +18,33 @@ std::size_t byte_count(const Grid<T>& grid) {
   return grid.values.size() * sizeof(T);
 }
 
-/// Decodes a file of a view with read, requires the size of its photograph, and undistorts it if the view has a lens.
+/// What is done to the pixels of a file.
 template <typename T>
-Expected<Grid<T>> load(const View& view, const std::filesystem::path& path,
-                       Expected<Grid<T>> (*read)(const std::filesystem::path&),
-                       Expected<Grid<T>> (*undistort)(const Grid<T>&, const Lens&, const PinholePicture&)) {
-  const int width = view.lens ? view.lens->width : view.width;
-  const int height = view.lens ? view.lens->height : view.height;
-  auto pixels = read(path);
+struct Steps {
+  Expected<Grid<T>> (*read)(const std::filesystem::path&);
+  Expected<Grid<T>> (*undistort)(const Grid<T>&, const Lens&, const PinholePicture&);
+  Grid<T> (*halve)(const Grid<T>&);
+};
+
+/// Decodes a file of a view, requires the size of its photograph, undistorts it if the view has a lens, and halves it.
+template <typename T>
+Expected<Grid<T>> load(const View& view, const std::filesystem::path& path, const Steps<T>& steps) {
+  const int width = view.photo_width > 0 ? view.photo_width : view.width;
+  const int height = view.photo_width > 0 ? view.photo_height : view.height;
+  auto pixels = steps.read(path);
   if (!pixels) return pixels;
   if (pixels->width != width || pixels->height != height)
     return failure(ErrorKind::kInput,
                    fmt::format("{}: is {} x {}, expected {} x {} for its camera; replace it or leave its view out",
                                path.string(), pixels->width, pixels->height, width, height));
-  if (!view.lens) return pixels;
-  return undistort(*pixels, *view.lens, {view.camera.intrinsics, view.width, view.height});
+  if (view.lens) {
+    const auto picture = pinhole_picture(*view.lens);
+    QUORUM_CHECK_EQ(picture.has_value(), true);
+    pixels = steps.undistort(*pixels, *view.lens, *picture);
+    if (!pixels) return pixels;
+  }
+  for (int i = 0; i < view.halvings; ++i) *pixels = steps.halve(*pixels);
+  return pixels;
 }
 
 }  // namespace
@@ -43,7 +56,7 @@ Expected<std::shared_ptr<const ColorImage>> ImageStore::image(int view) {
   const View& source = view_at(view);
   const Key key{Kind::kImage, view};
   if (auto kept = find(key)) return std::static_pointer_cast<const ColorImage>(kept);
-  auto loaded = load(source, source.image_path, read_image, undistort_image);
+  auto loaded = load(source, source.image_path, Steps<Rgba>{read_image, undistort_image, halve_image});
   if (!loaded) return std::unexpected(std::move(loaded.error()));
   const std::size_t bytes = byte_count(*loaded);
   return std::static_pointer_cast<const ColorImage>(
@@ -75,7 +88,7 @@ Expected<Mask> ImageStore::load_mask(int view) {
   const View& source = view_at(view);
   Mask mask(source.width, source.height, 1);
   if (!source.mask_path.empty()) {
-    auto from_file = load(source, source.mask_path, read_mask, undistort_mask);
+    auto from_file = load(source, source.mask_path, Steps<std::uint8_t>{read_mask, undistort_mask, halve_mask});
     if (!from_file) return from_file;
     mask = std::move(*from_file);
   }

@@ -6,13 +6,18 @@
 #include <array>
 #include <string>
 
+#include "engine/io/bundler.h"
 #include "engine/io/colmap.h"
 #include "engine/io/file.h"
 #include "engine/io/masks.h"
 #include "engine/io/middlebury.h"
+#include "engine/io/mvsnet.h"
+#include "engine/io/patch_match_cfg.h"
 #include "engine/io/ply.h"
 #include "engine/io/text.h"
+#include "engine/io/transforms.h"
 #include "engine/scene/check_bounds.h"
+#include "engine/scene/limit_image_size.h"
 #include "engine/scene/scene_bounds.h"
 
 namespace quorum {
@@ -58,6 +63,41 @@ void limit_depths(Scene& scene, bool bounds_given) {
   }
 }
 
+/// The readers of formats that know no bounds.
+Expected<Scene> read_format(SceneFormat format, const fs::path& folder, const fs::path& images) {
+  if (format == SceneFormat::kTransforms) return read_transforms(folder, images);
+  if (format == SceneFormat::kMvsnet) return read_mvsnet(folder, images);
+  if (format == SceneFormat::kBundler) return read_bundler(folder, images);
+  auto scene = read_colmap(folder, images);
+  const fs::path pairs = folder / "stereo" / "patch-match.cfg";
+  std::error_code ignored;
+  if (scene && fs::exists(pairs, ignored))
+    if (auto read = read_patch_match_cfg(pairs, scene->views); !read) return std::unexpected(read.error());
+  return scene;
+}
+
+/// The scene with masks, bounds and depth ranges, at the full size of its photographs.
+Expected<Scene> read_views(const fs::path& folder, const SceneOptions& options, const std::optional<Bounds>& given) {
+  SceneFormat format = options.format;
+  if (format == SceneFormat::kAutomatic) {
+    const auto found = recognize_format(folder);
+    if (!found) return std::unexpected(found.error());
+    format = *found;
+  }
+  if (format == SceneFormat::kMiddlebury) return read_middlebury(folder, given, options.masks);
+
+  auto scene = read_format(format, folder, options.images);
+  if (!scene) return scene;
+  if (!options.masks.empty())
+    if (auto found = find_masks(options.masks, scene->views); !found) return std::unexpected(found.error());
+  const auto bounds = given ? *given : find_bounds(*scene);
+  if (!bounds) return std::unexpected(bounds.error().within(folder.string()));
+  scene->bounds = *bounds;
+  if (auto checked = check_bounds(*scene); !checked) return std::unexpected(checked.error().within(folder.string()));
+  limit_depths(*scene, given.has_value());
+  return scene;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string_view, SceneFormat>> scene_format_names() {
@@ -72,7 +112,12 @@ Expected<SceneFormat> recognize_format(const fs::path& folder) {
   if (!fs::is_directory(status)) return path_failure(folder, "is a file, expected the folder of a scene");
   if (holds_file_that_ends_with(folder, "_par.txt")) return SceneFormat::kMiddlebury;
   if (!find_colmap_model(folder).empty()) return SceneFormat::kColmap;
-  return path_failure(folder, "no cameras in this folder: no *_par.txt (Middlebury), no sparse model (COLMAP)");
+  if (fs::is_regular_file(folder / "transforms.json", ignored)) return SceneFormat::kTransforms;
+  if (fs::is_directory(folder / "cams", ignored)) return SceneFormat::kMvsnet;
+  if (!find_bundle(folder).empty()) return SceneFormat::kBundler;
+  return path_failure(folder,
+                      "no cameras in this folder: no *_par.txt (Middlebury), sparse model (COLMAP), transforms.json "
+                      "(nerfstudio), cams (MVSNet) or bundle.out (Bundler)");
 }
 
 Expected<Bounds> read_roi(const fs::path& path) {
@@ -95,29 +140,18 @@ Expected<Bounds> read_roi(const fs::path& path) {
 
 Expected<Scene> read_scene(const fs::path& folder, const SceneOptions& options) {
   if (options.bounds && !options.roi.empty()) return failure(ErrorKind::kUsage, "--roi: give either --bounds or --roi");
+  if (options.max_image_size != 0 && options.max_image_size < 16)
+    return failure(ErrorKind::kUsage,
+                   fmt::format("--max-image-size {}: give 16 pixels or more, or 0", options.max_image_size));
   std::optional<Bounds> given = options.bounds;
   if (!options.roi.empty()) {
     const auto box = read_roi(options.roi);
     if (!box) return std::unexpected(box.error());
     given = *box;
   }
-  SceneFormat format = options.format;
-  if (format == SceneFormat::kAutomatic) {
-    const auto found = recognize_format(folder);
-    if (!found) return std::unexpected(found.error());
-    format = *found;
-  }
-  if (format == SceneFormat::kMiddlebury) return read_middlebury(folder, given, options.masks);
-
-  auto scene = read_colmap(folder, options.images);
+  auto scene = read_views(folder, options, given);
   if (!scene) return scene;
-  if (!options.masks.empty())
-    if (auto found = find_masks(options.masks, scene->views); !found) return std::unexpected(found.error());
-  const auto bounds = given ? *given : find_bounds(*scene);
-  if (!bounds) return std::unexpected(bounds.error().within(folder.string()));
-  scene->bounds = *bounds;
-  if (auto checked = check_bounds(*scene); !checked) return std::unexpected(checked.error().within(folder.string()));
-  limit_depths(*scene, given.has_value());
+  if (options.max_image_size > 0) limit_image_size(*scene, options.max_image_size);
   return scene;
 }
 

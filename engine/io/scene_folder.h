@@ -13,7 +13,7 @@
 namespace quorum {
 
 /// kAutomatic: what the folder shows.
-enum class SceneFormat { kAutomatic, kMiddlebury, kColmap };
+enum class SceneFormat { kAutomatic, kMiddlebury, kColmap, kTransforms, kMvsnet, kBundler };
 
 /// The formats under the names that --format takes, "auto" first.
 std::vector<std::pair<std::string_view, SceneFormat>> scene_format_names();
@@ -24,19 +24,22 @@ struct SceneOptions {
   std::filesystem::path roi;     ///< or those of this file (read_roi); empty = none
   std::filesystem::path masks;   ///< folder with a mask for each image (find_masks); empty = none
   std::filesystem::path images;  ///< folder of the photographs, where it is not beside the cameras; empty = look there
+  int max_image_size = 0;        ///< photographs that are wider or higher are halved until they are not; 0 = keep all
 };
 
 /// The format of the scene in a folder: Middlebury if it holds a *_par.txt, COLMAP if it holds a model
-/// (find_colmap_model), in this order. Fails (kInput) if it is no folder, or holds none of them.
+/// (find_colmap_model), nerfstudio if it holds transforms.json, MVSNet if it holds a folder cams, Bundler if it holds a
+/// bundle (find_bundle), in this order. Fails (kInput) if it is no folder, or holds none of them.
 Expected<SceneFormat> recognize_format(const std::filesystem::path& folder);
 
 /// A box from a file: that of the vertices of a .ply file, or the six numbers x0 y0 z0 x1 y1 z1 of a text, in which
 /// lines with # are comments. Fails (kInput).
 Expected<Bounds> read_roi(const std::filesystem::path& path);
 
-/// Reads the scene in a folder with its masks and bounds. Views have a depth range (find_depth_ranges) unless the
-/// bounds were given and don't hold their camera. Fails (kInput) as the reader of the format does, as find_masks and
-/// find_bounds do, if the bounds are empty or no view sees them, and (kUsage) if both bounds and roi are given.
+/// Reads the scene in a folder with its masks and bounds. A COLMAP workspace may hold stereo/patch-match.cfg, which
+/// gives the neighbors. Views have a depth range (find_depth_ranges) unless the bounds were given and don't hold their
+/// camera. Fails (kInput) as the reader of the format does, as find_masks and find_bounds do, if the bounds are empty
+/// or no view sees them, and (kUsage) if both bounds and roi are given, or max_image_size is below 16.
 Expected<Scene> read_scene(const std::filesystem::path& folder, const SceneOptions& options);
 
 }  // namespace quorum

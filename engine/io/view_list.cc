@@ -53,6 +53,8 @@ Expected<void> ViewList::add(const std::string& image_name, const std::filesyste
     view.camera.intrinsics = picture->intrinsics;
     view.width = picture->width;
     view.height = picture->height;
+    view.photo_width = lens.width;
+    view.photo_height = lens.height;
     view.lens = lens;
   }
   views_.push_back(std::move(view));

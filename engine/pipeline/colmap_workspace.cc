@@ -22,7 +22,7 @@ const View& view_at(const Scene& scene, int index) { return scene.views[static_c
 
 /// Whether photographs have to be written anew.
 bool undistorts(const Scene& scene) {
-  return std::ranges::any_of(scene.views, [](const View& view) { return view.lens.has_value(); });
+  return std::ranges::any_of(scene.views, [](const View& view) { return view.lens || view.halvings > 0; });
 }
 
 /// Names of the images in the workspace. New files are named after the view.

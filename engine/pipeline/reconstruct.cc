@@ -105,7 +105,7 @@ std::uint64_t view_bytes(const Scene& scene, const ReconstructOptions& options, 
   std::uint64_t distorted_pixels = 0;
   for (const View& view : scene.views) {
     pixels = std::max(pixels, area(view.width, view.height));
-    if (view.lens) distorted_pixels = std::max(distorted_pixels, area(view.lens->width, view.lens->height));
+    distorted_pixels = std::max(distorted_pixels, area(view.photo_width, view.photo_height));
   }
   return (2 * task_bytes + kWrittenBytes) * pixels + kDistortedBytes * distorted_pixels +
          backend.view_bytes(pixels, options.views.neighbor_count);

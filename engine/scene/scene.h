@@ -22,9 +22,12 @@ struct View {
   int height = 0;                    ///< pixels
   Camera camera;                     ///< of that image
   std::optional<Lens> lens = {};     ///< of the photograph, if it has to be undistorted to become that image
-  double near_depth = 0.0;           ///< least depth to look at, scene units
-  double far_depth = 0.0;            ///< largest depth to look at; 0 = the bounds alone say
-  std::vector<int> neighbors = {};   ///< to compare with, best first, if the scene's files name them
+  int photo_width = 0;               ///< pixels of the photograph; 0 = those of the image
+  int photo_height = 0;
+  int halvings = 0;                 ///< of the photograph, undistorted, to become that image
+  double near_depth = 0.0;          ///< least depth to look at, scene units
+  double far_depth = 0.0;           ///< largest depth to look at; 0 = the bounds alone say
+  std::vector<int> neighbors = {};  ///< to compare with, best first, if the scene's files name them
 };
 
 /// A point of the object that several views see.

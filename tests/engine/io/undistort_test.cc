@@ -81,6 +81,8 @@ TEST(Undistort, StoreHandsOutWhatTheViewSays) {
   view.height = picture.height;
   view.camera.intrinsics = picture.intrinsics;
   view.lens = lens;
+  view.photo_width = lens.width;
+  view.photo_height = lens.height;
   ASSERT_TRUE(write_png(view.image_path, ramp(lens)));
   ASSERT_TRUE(write_png(view.mask_path, ColorImage(lens.width, lens.height, make_rgb(9, 9, 9))));
   const Scene scene{{view}, {}};

@@ -55,6 +55,71 @@ TEST(SelectViews, MayFindFewerThanAskedFor) {
   EXPECT_EQ(select_views(scene_at({0, 20}), 0, {}).size(), 1U);
 }
 
+/// Cameras at these angles around the origin, 4 units away, looking at it; 40 points near it that all views see.
+Scene around_points(const std::vector<double>& angles_deg) {
+  Scene scene = scene_at(angles_deg);
+  std::vector<int> all;
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    scene.views[i].camera.intrinsics << 500, 0, 320, 0, 500, 240, 0, 0, 1;
+    scene.views[i].camera.translation = {0, 0, 4};
+    all.push_back(static_cast<int>(i));
+  }
+  for (int i = 0; i < 40; ++i) scene.points.push_back({{0.01 * i, -0.01 * (i % 7), 0.02 * (i % 5)}, all});
+  return scene;
+}
+
+TEST(SelectViewsByPoints, TakesWhoSharesMostPoints) {
+  Scene scene = around_points({0, 20, -20, 40, -40});
+  for (std::size_t i = 0; i < 30; ++i) std::erase(scene.points[i].views, 1);
+  for (std::size_t i = 0; i < 10; ++i) std::erase(scene.points[i].views, 2);
+  EXPECT_EQ(select_views(scene, 0, {}), (std::vector<int>{3, 4, 2, 1}));
+}
+
+TEST(SelectViewsByPoints, TakesAnglesOfTenDegreesAndMoreAndSpreadsThem) {
+  const Scene scene = around_points({0, 2, 15, 16, -15, 31});
+  SelectViewsOptions options;
+  options.neighbor_count = 3;
+  EXPECT_EQ(select_views(scene, 0, options), (std::vector<int>{2, 4, 5}));
+}
+
+TEST(SelectViewsByPoints, TakesALikeResolution) {
+  Scene scene = around_points({0, 20, -20, 40});
+  scene.views[1].camera.intrinsics.topRows(2) *= 0.25;
+  scene.views[2].camera.intrinsics.topRows(2) *= 1.5;
+  SelectViewsOptions options;
+  options.neighbor_count = 2;
+  EXPECT_EQ(select_views(scene, 0, options), (std::vector<int>{2, 3}));
+}
+
+TEST(SelectViewsByPoints, LeavesOutWhoSharesNextToNothing) {
+  Scene scene = around_points({0, 20, -20, 100, 40});
+  for (SparsePoint& point : scene.points) std::erase(point.views, 4);
+  scene.points[0].views.push_back(4);
+  EXPECT_EQ(select_views(scene, 0, {}), (std::vector<int>{1, 2, 4})) << "view 3 looks from more than 90 degrees";
+  scene.points.insert(scene.points.end(), 60, SparsePoint{{0, 0, 0}, {0, 1, 2}});
+  EXPECT_EQ(select_views(scene, 0, {}), (std::vector<int>{1, 2}));
+}
+
+TEST(SelectViewsByPoints, IsTheSameAtAnyScale) {
+  Scene scene = around_points({0, 12, 9, -14, 33, -25, 40, 5});
+  const auto chosen = select_views(scene, 0, {});
+  for (const double scale : {1000.0, 0.001}) {
+    Scene scaled = scene;
+    for (View& view : scaled.views) view.camera.translation *= scale;
+    for (SparsePoint& point : scaled.points) point.position *= scale;
+    EXPECT_EQ(select_views(scaled, 0, {}), chosen);
+  }
+}
+
+TEST(SelectViews, NeighborsOfTheFilesComeFirstUnlessARuleIsGiven) {
+  Scene scene = around_points({0, 20, -20, 40, -40, 60});
+  scene.views[0].neighbors = {5, 4, 3, 2, 1};
+  EXPECT_EQ(select_views(scene, 0, {}), (std::vector<int>{5, 4, 3, 2}));
+  SelectViewsOptions options;
+  options.rule = ViewRule::kAngle;
+  EXPECT_EQ(select_views(scene, 0, options), (std::vector<int>{1, 2, 3, 4}));
+}
+
 TEST(SelectViewsOptions, NamesTheOptionOutOfRange) {
   SelectViewsOptions options;
   options.neighbor_count = 1;

@@ -1,0 +1,154 @@
+#include "engine/io/mvsnet.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "engine/io/file.h"
+#include "engine/io/text.h"
+#include "engine/io/view_list.h"
+#include "engine/io/word_reader.h"
+
+namespace quorum {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kCameraEnding = "_cam.txt";
+
+std::unexpected<Error> path_failure(const fs::path& path, std::string_view message) {
+  return failure(ErrorKind::kInput, fmt::format("{}: {}", path.string(), message));
+}
+
+struct MvsnetCamera {
+  Camera camera;
+  double near_depth = 0.0;
+  double far_depth = 0.0;
+};
+
+Expected<MvsnetCamera> parse_camera(const fs::path& path, std::string_view text) {
+  constexpr double kUsualDepths = 192;
+  WordReader words(path, text);
+  MvsnetCamera result;
+  words.expect("extrinsic");
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      const auto value = words.number<double>("a value of the extrinsic matrix");
+      if (row == 3) continue;
+      (column < 3 ? result.camera.camera_from_world(row, column) : result.camera.translation(row)) = value;
+    }
+  }
+  words.expect("intrinsic");
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      result.camera.intrinsics(row, column) = words.number<double>("a value of the intrinsic matrix");
+  result.near_depth = words.number<double>("depth_min");
+  const auto interval = words.number<double>("the depth interval");
+  const double count = !words.at_end() ? words.number<double>("the count of depths") : kUsualDepths;
+  result.far_depth = !words.at_end() ? words.number<double>("depth_max") : result.near_depth + (count - 1.0) * interval;
+  if (!(result.near_depth > 0 && result.far_depth > result.near_depth && result.far_depth < 1e30))
+    words.fail("depth_min, interval, count and depth_max give no range of depths");
+  if (!words.at_end()) words.fail("more follows than a camera");
+  if (auto done = words.done(); !done) return std::unexpected(done.error());
+  if (const char* defect = camera_defect(result.camera); defect != nullptr) return path_failure(path, defect);
+  if (result.camera.intrinsics(0, 1) != 0.0) return path_failure(path, "its camera has skew, which is not supported");
+  return result;
+}
+
+/// Cameras by their numbers.
+Expected<std::map<int, fs::path>> list_cameras(const fs::path& folder) {
+  std::map<int, fs::path> cameras;
+  std::error_code code;
+  for (fs::directory_iterator entry(folder, code); !code && entry != fs::directory_iterator(); entry.increment(code)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.ends_with(kCameraEnding)) continue;
+    const auto number = parse_number<int>(std::string_view(name).substr(0, name.size() - kCameraEnding.size()));
+    if (number && *number >= 0) cameras.emplace(*number, entry->path());
+  }
+  if (cameras.empty()) return path_failure(folder, "holds no camera, 00000000_cam.txt and so on");
+  return cameras;
+}
+
+/// The photograph of a camera's number: of its eight digits with any extension.
+Expected<fs::path> find_image(const std::vector<fs::path>& files, const fs::path& folder, const fs::path& camera) {
+  const std::string name = camera.filename().string();
+  const std::string stem = name.substr(0, name.size() - kCameraEnding.size());
+  const auto file = std::ranges::find(files, stem, [](const fs::path& path) { return path.stem().string(); });
+  if (file == files.end()) return path_failure(folder, fmt::format("no image {}.jpg or .png for {}", stem, name));
+  return *file;
+}
+
+/// pair.txt: a count; then of each view its number, a count, and as many numbers with scores. view_of: by number.
+Expected<void> read_pairs(const fs::path& path, const std::map<int, int>& view_of, std::vector<View>& views) {
+  const auto text = read_file(path);
+  if (!text) return std::unexpected(text.error());
+  WordReader words(path, *text);
+  const auto place_of = [&](int number) {
+    const auto place = view_of.find(number);
+    if (place != view_of.end()) return place->second;
+    words.fail(fmt::format("view {} has no camera", number));
+    return 0;
+  };
+  const int count = words.number<int>("the count of views");
+  for (int i = 0; i < count && !words.failed(); ++i) {
+    View& view = views[static_cast<std::size_t>(place_of(words.number<int>("the number of a view")))];
+    view.neighbors.clear();
+    const int neighbors = words.number<int>("the count of neighbors");
+    for (int k = 0; k < neighbors && !words.failed(); ++k) {
+      const int neighbor = place_of(words.number<int>("the number of a neighbor"));
+      words.number<double>("a score");
+      if (&views[static_cast<std::size_t>(neighbor)] == &view) words.fail("a view is its own neighbor");
+      if (std::ranges::count(view.neighbors, neighbor) == 0) view.neighbors.push_back(neighbor);
+    }
+  }
+  return words.done();
+}
+
+}  // namespace
+
+Expected<Scene> read_mvsnet(const fs::path& folder, const fs::path& images) {
+  const auto cameras = list_cameras(folder / "cams");
+  if (!cameras) return std::unexpected(cameras.error());
+  const fs::path image_folder = images.empty() ? folder / "images" : images;
+  std::vector<fs::path> files;
+  std::error_code code;
+  for (fs::directory_iterator entry(image_folder, code); !code && entry != fs::directory_iterator();
+       entry.increment(code))
+    files.push_back(entry->path());
+  std::ranges::sort(files);
+
+  ViewList list;
+  std::vector<MvsnetCamera> parsed;
+  std::map<int, int> view_of;
+  for (const auto& [number, path] : *cameras) {
+    const auto text = read_file(path);
+    if (!text) return std::unexpected(text.error());
+    const auto camera = parse_camera(path, *text);
+    if (!camera) return std::unexpected(camera.error());
+    const auto image = find_image(files, image_folder, path);
+    if (!image) return std::unexpected(image.error());
+    Lens lens;
+    const Eigen::Matrix3d& k = camera->camera.intrinsics;
+    lens.focal = {k(0, 0), k(1, 1)};
+    lens.principal = {k(0, 2) - 0.5, k(1, 2) - 0.5};
+    if (auto added = list.add(image->filename().string(), *image, camera->camera, lens); !added)
+      return std::unexpected(added.error().within(folder.string()));
+    view_of.emplace(number, static_cast<int>(parsed.size()));
+    parsed.push_back(*camera);
+  }
+  auto views = list.finish();
+  if (!views) return std::unexpected(views.error().within(folder.string()));
+  for (std::size_t i = 0; i < parsed.size(); ++i) {
+    (*views)[i].near_depth = parsed[i].near_depth;
+    (*views)[i].far_depth = parsed[i].far_depth;
+  }
+  std::error_code ignored;
+  if (fs::exists(folder / "pair.txt", ignored))
+    if (auto read = read_pairs(folder / "pair.txt", view_of, *views); !read) return std::unexpected(read.error());
+  return Scene{std::move(*views), {}};
+}
+
+}  // namespace quorum
