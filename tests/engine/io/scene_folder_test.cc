@@ -44,9 +44,9 @@ class SceneFolderTest : public testing::Test {
       const Camera& camera = scene_.views[i].camera;
       std::string text = "extrinsic\n";
       for (int row = 0; row < 3; ++row)
-        text += fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}\n", camera.camera_from_world(row, 0),
-                            camera.camera_from_world(row, 1), camera.camera_from_world(row, 2),
-                            camera.translation(row));
+        text +=
+            fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}\n", camera.camera_from_world(row, 0),
+                        camera.camera_from_world(row, 1), camera.camera_from_world(row, 2), camera.translation(row));
       text += fmt::format("0 0 0 1\n\nintrinsic\n{:.17g} 0 {:.17g}\n0 {:.17g} {:.17g}\n0 0 1\n\n2.5 0.05\n",
                           camera.intrinsics(0, 0), camera.intrinsics(0, 2) + 0.5, camera.intrinsics(1, 1),
                           camera.intrinsics(1, 2) + 0.5);
@@ -298,17 +298,17 @@ TEST_F(SceneFolder, WrongFilesAreNamed) {
 /// A mutated scene is read or refused on one line, without a crash. QUORUM_FUZZ_SECONDS: how long to go on, per file.
 TEST_F(SceneFolder, DamagedFilesNeverCrash) {
   fs::create_directories(path("colmap/stereo"));
-  write_text(path("colmap/stereo/patch-match.cfg"), "# pairs\na.png\nc.png, b.png\nb.png\n__auto__, 20\nc.png\n__all__\n");
+  write_text(path("colmap/stereo/patch-match.cfg"), "a.png\nc.png, b.png\nb.png\n__auto__, 20\nc.png\n__all__\n");
   write_colmap_scene(path("text"), make_colmap_model("OPENCV"));
   for (const char* file : {"cameras.bin", "images.bin", "points3D.bin"}) fs::remove(path("text/sparse") / file);
   write_colmap_text(path("text/sparse"), make_colmap_model("OPENCV"));
   const char* wanted = std::getenv("QUORUM_FUZZ_SECONDS");
   const double seconds = wanted != nullptr ? std::atof(wanted) : 0.0;
   const std::pair<const char*, const char*> kFiles[] = {
-      {"colmap", "sparse/cameras.bin"},  {"colmap", "sparse/images.bin"},    {"colmap", "sparse/points3D.bin"},
-      {"text", "sparse/cameras.txt"},    {"text", "sparse/images.txt"},      {"text", "sparse/points3D.txt"},
-      {"mvsnet", "cams/00000001_cam.txt"}, {"mvsnet", "pair.txt"},           {"transforms", "transforms.json"},
-      {"bundler", "bundle.out"},         {"bundler", "list.txt"},            {"colmap", "stereo/patch-match.cfg"}};
+      {"colmap", "sparse/cameras.bin"},    {"colmap", "sparse/images.bin"}, {"colmap", "sparse/points3D.bin"},
+      {"text", "sparse/cameras.txt"},      {"text", "sparse/images.txt"},   {"text", "sparse/points3D.txt"},
+      {"mvsnet", "cams/00000001_cam.txt"}, {"mvsnet", "pair.txt"},          {"transforms", "transforms.json"},
+      {"bundler", "bundle.out"},           {"bundler", "list.txt"},         {"colmap", "stereo/patch-match.cfg"}};
   for (const auto& [folder, file] : kFiles) {
     const fs::path target = path(folder) / file;
     const std::string good = read_file(target).value();

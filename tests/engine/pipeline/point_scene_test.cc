@@ -1,0 +1,171 @@
+// Whole runs on a scene with sparse points: the same at any scale, and what is made of depth maps beside the mesh.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "engine/io/colmap.h"
+#include "engine/io/file.h"
+#include "engine/io/image_file.h"
+#include "engine/io/ply.h"
+#include "engine/io/scene_folder.h"
+#include "engine/pipeline/colmap_workspace.h"
+#include "engine/pipeline/cpu_backend.h"
+#include "engine/pipeline/fuse_points.h"
+#include "engine/pipeline/reconstruct.h"
+#include "tests/support/sphere_scene.h"
+#include "tests/support/test_support.h"
+
+namespace quorum {
+namespace {
+
+/// A sphere before a few cameras, as a COLMAP scene on disk, with points on its surface. scale: of all lengths.
+void write_sphere(const std::filesystem::path& folder, double scale) {
+  const SphereScene sphere = make_sphere_scene(5, 96, 72, false, 4);
+  std::filesystem::create_directories(folder / "images");
+  std::filesystem::create_directories(folder / "sparse");
+  ColmapModel model;
+  for (std::size_t i = 0; i < sphere.images.size(); ++i) {
+    const View& view = sphere.scene.views[i];
+    const Eigen::Matrix3d& k = view.camera.intrinsics;
+    const auto id = static_cast<std::uint32_t>(i + 1);
+    const std::string name = std::to_string(i) + ".png";
+    ASSERT_TRUE(write_png(folder / "images" / name, sphere.images[i]));
+    model.cameras.push_back({id, &colmap_camera_models()[1], 96, 72, {k(0, 0), k(1, 1), k(0, 2) + 0.5, k(1, 2) + 0.5}});
+    const Eigen::Quaterniond q(view.camera.camera_from_world);
+    model.images.push_back({id, {q.w(), q.x(), q.y(), q.z()}, scale * view.camera.translation, id, name, {}});
+  }
+  for (std::uint64_t id = 1; id <= 400; ++id) {
+    const double z = 1.0 - 2.0 * static_cast<double>(id) / 401.0;
+    const double turn = 2.4 * static_cast<double>(id);
+    const Eigen::Vector3d point(std::cos(turn) * std::sqrt(1 - z * z), z, std::sin(turn) * std::sqrt(1 - z * z));
+    ColmapPoint entry{id, scale * point, {1, 2, 3}, {}};
+    for (std::size_t i = 0; i < sphere.images.size(); ++i) {
+      const Camera& camera = sphere.scene.views[i].camera;
+      if ((camera.center() - point).dot(point) < 0.3) continue;  // seen from behind, or aslant
+      model.images[i].observations.push_back({camera.project(point).head<2>().array() + 0.5, id});
+      entry.image_ids.push_back(static_cast<std::uint32_t>(i + 1));
+    }
+    if (entry.image_ids.size() >= 2) model.points.push_back(entry);
+  }
+  for (ColmapImage& image : model.images)
+    std::erase_if(image.observations, [&](const ColmapObservation& seen) {
+      return std::ranges::count(model.points, seen.point_id, &ColmapPoint::id) == 0;
+    });
+  ASSERT_TRUE(write_colmap_model(folder / "sparse", model));
+}
+
+struct Result {
+  TemporaryFolder folder;
+  Scene scene;
+  ReconstructOptions options;
+  Workspace workspace = Workspace::open(folder.path() / "result").value();
+  Mesh mesh;
+
+  explicit Result(double scale) {
+    write_sphere(folder.path() / "scene", scale);
+    scene = read_scene(folder.path() / "scene", {}).value();
+    CpuBackend cpu({SimdLevel::kBaseline, 64, 16});
+    Progress progress;
+    RunReport report;
+    compute_depth_maps(scene, options, cpu, workspace, progress, report).value();
+    fuse_depth_maps(scene, options, cpu, workspace, progress, report).value();
+    mesh = read_ply(workspace.mesh_path()).value();
+  }
+};
+
+TEST(PointScene, MeshIsTheSameAtAnyScale) {
+  const Result one(1.0);
+  ASSERT_GT(one.mesh.triangles.size(), 1000U);
+  // Powers of two change no digit of any float.
+  for (const double scale : {1024.0, 1.0 / 1024.0}) {
+    const Result scaled(scale);
+    ASSERT_EQ(scaled.mesh.triangles, one.mesh.triangles) << scale;
+    for (std::size_t i = 0; i < one.mesh.vertices.size(); ++i)
+      ASSERT_EQ(scaled.mesh.vertices[i].position, static_cast<float>(scale) * one.mesh.vertices[i].position) << scale;
+  }
+  // Others round otherwise, and some depths tip over to the next plane.
+  for (const double scale : {1000.0, 0.001}) {
+    const Result scaled(scale);
+    const auto expected = static_cast<double>(one.mesh.triangles.size());
+    EXPECT_NEAR(static_cast<double>(scaled.mesh.triangles.size()), expected, 0.01 * expected) << scale;
+    EXPECT_NEAR(scaled.scene.bounds.size().norm(), scale * one.scene.bounds.size().norm(), 1e-9 * scale);
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    Eigen::Vector3f expected_sum = Eigen::Vector3f::Zero();
+    for (const Vertex& vertex : scaled.mesh.vertices) sum += vertex.position / static_cast<float>(scale);
+    for (const Vertex& vertex : one.mesh.vertices) expected_sum += vertex.position;
+    EXPECT_LT((sum / static_cast<float>(scaled.mesh.vertices.size()) -
+               expected_sum / static_cast<float>(one.mesh.vertices.size()))
+                  .norm(),
+              0.002F)
+        << scale;
+  }
+}
+
+TEST(PointScene, CloudLiesOnTheSurfaceWithItsNormals) {
+  const Result run(1.0);
+  Progress progress;
+  const Mesh cloud = fuse_points(run.scene, run.options, run.workspace, progress).value();
+  ASSERT_GT(cloud.vertices.size(), 500U);
+  std::size_t near = 0;
+  std::size_t right = 0;
+  for (const Vertex& vertex : cloud.vertices) {
+    const float radius = vertex.position.norm();
+    near += std::abs(radius - 1.0F) < 0.03F ? 1 : 0;
+    right += vertex.normal.dot(vertex.position) / radius > 0.9F ? 1 : 0;
+    EXPECT_GT(vertex.confidence, 0.0F);
+  }
+  EXPECT_GT(near, cloud.vertices.size() * 9 / 10);
+  EXPECT_GT(right, cloud.vertices.size() * 9 / 10);
+}
+
+TEST(PointScene, ColmapWorkspaceReadsAsTheSameScene) {
+  const Result run(1.0);
+  Progress progress;
+  const auto folder = run.workspace.colmap_path();
+  const auto written = write_colmap_workspace(folder, run.scene, run.options, run.workspace, progress);
+  ASSERT_TRUE(written) << written.error().message;
+  const Scene again = read_scene(folder, {}).value();
+  ASSERT_EQ(again.views.size(), run.scene.views.size());
+  ASSERT_EQ(again.points.size(), run.scene.points.size());
+  EXPECT_EQ(again.points[7].views, run.scene.points[7].views);
+  for (int i = 0; i < 5; ++i) {
+    const View& view = again.views[static_cast<std::size_t>(i)];
+    const View& expected = run.scene.views[static_cast<std::size_t>(i)];
+    EXPECT_LT((view.camera.camera_from_world - expected.camera.camera_from_world).norm(), 1e-14);
+    EXPECT_EQ(view.camera.intrinsics, expected.camera.intrinsics);
+    EXPECT_EQ(view.neighbors, select_views(run.scene, i, run.options.views));
+    EXPECT_EQ(read_file(view.image_path).value(), read_file(expected.image_path).value());
+
+    const DepthMap map = run.workspace.load_depth_map(expected.name, 96, 72).value();
+    const std::string depth =
+        read_file(folder / "stereo/depth_maps" / (expected.image_name + ".geometric.bin")).value();
+    ASSERT_TRUE(depth.starts_with("96&72&1&"));
+    EXPECT_EQ(std::memcmp(depth.data() + 8, map.depth.values.data(), 96 * 72 * 4), 0);
+    const std::string normals =
+        read_file(folder / "stereo/normal_maps" / (expected.image_name + ".geometric.bin")).value();
+    ASSERT_TRUE(normals.starts_with("96&72&3&"));
+    ASSERT_EQ(normals.size(), 8U + 96U * 72U * 12U);
+    float z = 0.0F;
+    const std::size_t middle = 36 * 96 + 48;
+    std::memcpy(&z, normals.data() + 8 + 4 * (2 * 96 * 72 + middle), 4);
+    EXPECT_LT(z, -0.9F) << "the middle of the sphere looks at the camera";
+  }
+  EXPECT_EQ(read_file(folder / "stereo/fusion.cfg").value(), "0.png\n1.png\n2.png\n3.png\n4.png\n");
+}
+
+TEST(PointScene, WorkspaceOfASceneWithoutPointsGetsSome) {
+  Result run(1.0);
+  run.scene.points.clear();
+  Progress progress;
+  write_colmap_workspace(run.workspace.colmap_path(), run.scene, run.options, run.workspace, progress).value();
+  const ColmapModel model = read_colmap_model(run.workspace.colmap_path() / "sparse").value();
+  ASSERT_GT(model.points.size(), 50U);
+  EXPECT_GT(std::ranges::count_if(model.points, [](const ColmapPoint& point) { return point.image_ids.size() >= 3; }),
+            20);
+}
+
+}  // namespace
+}  // namespace quorum
