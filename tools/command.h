@@ -12,6 +12,7 @@ namespace quorum {
 
 /// Runs a command: arguments without the program and command name; the result is the exit code.
 int reconstruct_command(int argc, char** argv);
+int photos_command(int argc, char** argv);
 int depth_command(int argc, char** argv);
 int fuse_command(int argc, char** argv);
 int evaluate_command(int argc, char** argv);

@@ -16,6 +16,7 @@ struct Command {
 
 constexpr Command kCommands[] = {
     {"reconstruct", "photographs with known cameras to depth maps and a mesh", quorum::reconstruct_command},
+    {"photos", "plain photographs to depth maps and a mesh, with the installed colmap", quorum::photos_command},
     {"depth", "the depth maps alone", quorum::depth_command},
     {"fuse", "the mesh from depth maps computed before", quorum::fuse_command},
     {"evaluate", "accuracy and completeness of a mesh against the truth", quorum::evaluate_command},

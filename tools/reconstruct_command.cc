@@ -10,13 +10,7 @@ int reconstruct_command(int argc, char** argv) {
   arguments.add_depth_options(app);
   arguments.add_fusion_options(app);
   arguments.add_device_and_output_options(app);
-  return run_command(app, argc, argv, [&] {
-    return run_pipeline(arguments, [](const Scene& scene, const ReconstructOptions& options, Backend& backend,
-                                      const Workspace& workspace, Progress& progress, RunReport& report) {
-      auto done = compute_depth_maps(scene, options, backend, workspace, progress, report);
-      return done ? fuse_depth_maps(scene, options, backend, workspace, progress, report) : done;
-    });
-  });
+  return run_command(app, argc, argv, [&] { return run_pipeline(arguments, reconstruct_scene); });
 }
 
 }  // namespace quorum

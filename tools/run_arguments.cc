@@ -130,13 +130,17 @@ void RunArguments::add_scene_and_output(CLI::App& app) {
                  "Folder with the photographs and their cameras (Middlebury: *_par.txt, images, README.txt; "
                  "COLMAP: images, sparse; nerfstudio, MVSNet, Bundler)")
       ->required();
+  add_output_options(app);
+  add_format_options(app, files);
+}
+
+void RunArguments::add_output_options(CLI::App& app) {
   app.add_option("-o,--output", output, "Folder for the results; made if missing")->required();
   app.add_option("--bounds", bounds,
                  "Box that holds the object, x0 y0 z0 x1 y1 z1 [Middlebury: README.txt; else found]")
       ->expected(1, 6);
   app.add_option("--roi", files.roi, "The same box from a file: six numbers, or a .ply whose extent is taken");
   app.add_option("--masks", files.masks, "Folder with a mask per image (a.jpg.png or a.png); black is left out");
-  add_format_options(app, files);
   app.add_flag("--cloud", cloud, "Also fuse the depth maps to a cloud of points, fused.ply");
   app.add_flag("--colmap", colmap, "Also write colmap/, a dense workspace for `colmap stereo_fusion`");
 }
@@ -245,6 +249,12 @@ void RunArguments::add_device_and_output_options(CLI::App& app) {
   add_device_options(app);
   app.add_flag("--json", json, "Print run.json to standard output at the end, and nothing else there")
       ->group(kDeviceGroup);
+}
+
+Expected<void> reconstruct_scene(const Scene& scene, const ReconstructOptions& options, Backend& backend,
+                                 const Workspace& workspace, Progress& progress, RunReport& report) {
+  auto done = compute_depth_maps(scene, options, backend, workspace, progress, report);
+  return done ? fuse_depth_maps(scene, options, backend, workspace, progress, report) : done;
 }
 
 namespace {

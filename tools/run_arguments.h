@@ -38,6 +38,7 @@ struct RunArguments {
   ReconstructOptions options;
 
   void add_scene_and_output(CLI::App& app);
+  void add_output_options(CLI::App& app);
   void add_depth_options(CLI::App& app);
   void add_fusion_options(CLI::App& app);
   void add_device_options(CLI::App& app);
@@ -50,6 +51,10 @@ void add_format_options(CLI::App& app, SceneOptions& files);
 /// One of the pipeline's stages, or several.
 using PipelineStages = std::function<Expected<void>(const Scene&, const ReconstructOptions&, Backend&, const Workspace&,
                                                     Progress&, RunReport&)>;
+
+/// Depth maps and mesh: the stages of `quorum reconstruct`.
+Expected<void> reconstruct_scene(const Scene& scene, const ReconstructOptions& options, Backend& backend,
+                                 const Workspace& workspace, Progress& progress, RunReport& report);
 
 /// Reads the scene, opens the device and the workspace, runs the stages and writes run.json. Fails as they do.
 Expected<void> run_pipeline(RunArguments& arguments, const PipelineStages& stages);

@@ -101,8 +101,9 @@ Expected<Scene> read_views(const fs::path& folder, const SceneOptions& options, 
 }  // namespace
 
 std::vector<std::pair<std::string_view, SceneFormat>> scene_format_names() {
-  return {
-      {"auto", SceneFormat::kAutomatic}, {"middlebury", SceneFormat::kMiddlebury}, {"colmap", SceneFormat::kColmap}};
+  return {{"auto", SceneFormat::kAutomatic}, {"middlebury", SceneFormat::kMiddlebury},
+          {"colmap", SceneFormat::kColmap},  {"transforms", SceneFormat::kTransforms},
+          {"mvsnet", SceneFormat::kMvsnet},  {"bundler", SceneFormat::kBundler}};
 }
 
 Expected<SceneFormat> recognize_format(const fs::path& folder) {
