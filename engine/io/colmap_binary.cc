@@ -5,6 +5,7 @@
 
 #include "engine/io/byte_reader.h"
 #include "engine/io/colmap_files.h"
+#include "engine/io/text.h"
 
 namespace quorum {
 namespace {
@@ -69,13 +70,15 @@ Expected<std::vector<ColmapCamera>> parse_colmap_cameras_bin(const fs::path& pat
 }
 
 Expected<std::vector<ColmapImage>> parse_colmap_images_bin(const fs::path& path, std::string_view bytes) {
-  const auto parse = [](ByteReader& reader, std::uint64_t) -> Expected<ColmapImage> {
+  const auto parse = [&path](ByteReader& reader, std::uint64_t index) -> Expected<ColmapImage> {
     ColmapImage image;
     image.id = reader.next<std::uint32_t>();
     for (double& value : image.rotation) value = reader.next<double>();
     for (int axis = 0; axis < 3; ++axis) image.translation(axis) = reader.next<double>();
     image.camera_id = reader.next<std::uint32_t>();
     image.name = reader.next_string();
+    if (has_control_characters(image.name))
+      return record_failure(path, "image", index, "its name has control characters; copy the file again");
     const std::uint64_t count = reader.next_count(2 * 8 + 8);
     for (std::uint64_t i = 0; i < count; ++i) {
       ColmapObservation observation;

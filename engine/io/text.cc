@@ -41,6 +41,10 @@ std::string quote_token(std::string_view token) {
   return '"' + text + (token.size() > kLongest ? "...\"" : "\"");
 }
 
+bool has_control_characters(std::string_view text) {
+  return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < ' '; });
+}
+
 std::unexpected<Error> failure_at_line(const std::filesystem::path& path, int line, std::string_view message) {
   return failure(ErrorKind::kInput, fmt::format("{}:{}: {}", path.string(), line, message));
 }

@@ -51,6 +51,9 @@ class LineReader {
 /// A token in quotes for a message: cut after 40 characters, with question marks for what can't be printed.
 std::string quote_token(std::string_view token);
 
+/// True if a text can't be shown on one line, as no sane name of a file is.
+bool has_control_characters(std::string_view text);
+
 /// Failure (kInput) "path:line: message".
 std::unexpected<Error> failure_at_line(const std::filesystem::path& path, int line, std::string_view message);
 

@@ -8,6 +8,7 @@
 
 #include "engine/io/file.h"
 #include "engine/io/image_size.h"
+#include "engine/io/text.h"
 #include "engine/io/view_list.h"
 
 namespace quorum {
@@ -114,6 +115,8 @@ Expected<Scene> read_transforms(const fs::path& folder, const fs::path& images) 
     const auto name = frame.find("file_path");
     if (!frame.is_object() || name == frame.end() || !name->is_string())
       return refuse(fmt::format("frame {} has no file_path", i));
+    if (has_control_characters(name->get<std::string>()))
+      return refuse(fmt::format("frame {}: its file_path has control characters", i));
     const auto pose = pose_of(frame);
     if (!pose) return refuse(fmt::format("frame {}: transform_matrix is no 4 x 4 matrix of numbers", i));
     std::string image = fs::path(name->get<std::string>()).lexically_normal().string();

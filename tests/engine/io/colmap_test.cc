@@ -211,6 +211,12 @@ TEST_F(Colmap, CutOffFilesAreRefusedWithoutLargeAllocations) {
   expect_bad_input(read(), {"images.bin", "image 1", "cut off"});
 }
 
+TEST_F(Colmap, NamesOfSeveralLinesAreRefusedOnOne) {
+  write(make_colmap_model("PINHOLE"));
+  change("sparse/images.bin", [](std::string& bytes) { bytes[bytes.find("b.png")] = '\n'; });
+  expect_bad_input(read(), {"images.bin", "image 2", "control characters"});
+}
+
 TEST_F(Colmap, UnknownCameraModelIsNamed) {
   write(make_colmap_model("PINHOLE"));
   change("sparse/cameras.bin", [](std::string& bytes) { bytes[12] = 77; });
