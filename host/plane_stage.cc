@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "engine/depth/fit_planes.h"
-#include "engine/depth/reference_windows.h"
+#include "engine/depth/support_windows.h"
 #include "engine/depth/vote_depth.h"
 #include "host/kernel_table.h"
 
@@ -48,7 +48,8 @@ Expected<void> PlaneStage::prepare_kernel(int window) {
 Expected<PlaneStage::Buffers> PlaneStage::upload(const SweepTask& task, const Grid<PixelVote>& first_pass) const {
   auto reference = Buffer::of(*device_, task.reference->pixels);
   if (!reference) return std::unexpected(reference.error());
-  auto windows = Buffer::of(*device_, make_reference_windows(*task.reference, task.options.window).values);
+  auto windows = Buffer::of(
+      *device_, make_support_windows(*task.reference, task.options.window, task.options.support_tolerance).values);
   if (!windows) return std::unexpected(windows.error());
   std::vector<Buffer> neighbors;
   for (const auto& image : task.neighbors) {

@@ -32,14 +32,16 @@ const float kMinDepthRatio = 0.0009765625f;  // 1/1024
 const int kBlockMultiple = 16;
 
 // Voxels.
-const int kBlockSide = 8;           // voxels along an edge of a block
-const int kBlockVoxels = 512;       // kBlockSide^3
-const int kDistanceScale = 2048;    // signed distance is kept in 1/2048 of the truncation
-const int kWeightScale = 255;       // weight 1 = a vertex of full confidence
+const int kBlockSide = 8;              // voxels along an edge of a block
+const int kBlockVoxels = 512;          // kBlockSide^3
+const int kDistanceScale = 2048;       // signed distance is kept in 1/2048 of the truncation
+const int kWeightScale = 255;          // weight 1 = a vertex of full confidence
+const int kWeightBits = 8;             // of a vertex's word; above them its cosine
+const int kCosineScale = 65535;        // cosine 1
 const int kMaxIntegratedViews = 4096;  // 2048 * 255 * 4096 < 2^31: the sums of a voxel can't overflow
-const float kBehindShare = 0.5f;    // of the truncation: how far behind a surface voxels take it (what lies further in
-                                    // belongs to other surfaces: docs/measurements/fusion_defaults.md)
-const int kVoxelWords = 5;          // of one voxel: weight, weighted distance, weighted red, green, blue
+const float kBehindShare = 0.5f;  // of the truncation: how far behind a surface voxels take it (what lies further in
+                                  // belongs to other surfaces: docs/measurements/fusion_defaults.md)
+const int kVoxelWords = 5;        // of one voxel: weight, weighted distance, weighted red, green, blue
 
 // Bits of a cell of the range surface. A cell has the pixels 0 = (x, y), 1 = (x+1, y), 2 = (x, y+1), 3 = (x+1, y+1) and
 // up to two triangles: split along 1-2 they are 0-1-2 and 3-2-1, split along 0-3 they are 1-3-0 and 2-0-3.
@@ -51,6 +53,7 @@ const uint kCellSplitAlong03 = 4u;
 const uint kWeighConfidence = 1u;
 const uint kWeighSlant = 2u;
 const uint kWeighBorder = 4u;
+const uint kDistanceAlongNormal = 8u;  // not a factor: the cosine beside the weight is that of the surface, not 1
 
 // Where the pixels of a view land in a neighbor on the plane at inverse depth w:
 // (x', y', 1) ~ rotation * (x, y, 1) + offset * w.
@@ -104,8 +107,8 @@ struct InverseDepthRange {
 };
 QUORUM_SIZE(InverseDepthRange, 8);
 
-// How a plane to try comes about: that of the pixel at the offset in the last round, extrapolated, or with offset (0, 0)
-// the pixel's best one so far, with a step.
+// How a plane to try comes about: that of the pixel at the offset in the last round, extrapolated, or with offset (0,
+// 0) the pixel's best one so far, with a step.
 struct PlaneMove {
   int offset_x;
   int offset_y;
@@ -141,6 +144,15 @@ struct ReferenceWindow {
 };
 QUORUM_SIZE(ReferenceWindow, 16);
 
+// The part of a window of the reference view that looks like its center, and what NCC needs of it.
+struct SupportWindow {
+  int sum[3];               // of the samples of each channel
+  float inverse_deviation;  // 1 / sqrt(n^2 variance)
+  int samples;              // n
+  int max_difference;       // of the part's pixels from the center, largest of the channels, 0..255
+};
+QUORUM_SIZE(SupportWindow, 24);
+
 // sweep_depth and sweep_depth_lanes: NCC of all windows of a batch of items against one neighbor.
 struct SweepParams {
   PlaneWarp warp;
@@ -161,8 +173,8 @@ struct VoteParams {
   int height;
   int block_width;   // pixels
   int block_height;  // pixels
-  int block_count;  // of this batch
-  int item_count;   // of this batch
+  int block_count;   // of this batch
+  int item_count;    // of this batch
   int neighbor_count;
   int min_votes;
   float threshold;
@@ -204,7 +216,7 @@ struct RangeSurfaceParams {
 };
 QUORUM_SIZE(RangeSurfaceParams, 12);
 
-// weigh_surface: the weights of its vertices.
+// weigh_surface: the weights of its vertices, and in the upper bits the cosines of the distances along their normals.
 struct WeighSurfaceParams {
   int width;
   int height;
@@ -225,25 +237,25 @@ struct CollectParams {
   int blocks[3];            // size of the grid
   int width;
   int height;
-  float depth_step;         // between points along a ray, scene units
-  int steps;                // points on each side of the surface
-  float margin;             // around each point, blocks
+  float depth_step;  // between points along a ray, scene units
+  int steps;         // points on each side of the surface
+  float margin;      // around each point, blocks
 };
 QUORUM_SIZE(CollectParams, 80);
 
 // integrate: adds one range surface to the voxels of the listed blocks.
 struct IntegrateParams {
-  float projection[12];      // (x z, y z, z) of a voxel's center, pixels and depth, from its coordinates in the grid
-  float inverse_focal_x;     // 1 / pixels
+  float projection[12];   // (x z, y z, z) of a voxel's center, pixels and depth, from its coordinates in the grid
+  float inverse_focal_x;  // 1 / pixels
   float inverse_focal_y;
-  float principal_x;         // pixels
+  float principal_x;  // pixels
   float principal_y;
   float inverse_truncation;  // 1 / scene units
   int width;
   int height;
-  int list_begin;            // first entry of the block list for this dispatch
-  int blocks[2];             // size of the grid along x and y
-  int pool_begin;            // number of the first block in the bound part of the pool
+  int list_begin;  // first entry of the block list for this dispatch
+  int blocks[2];   // size of the grid along x and y
+  int pool_begin;  // number of the first block in the bound part of the pool
 };
 QUORUM_SIZE(IntegrateParams, 92);
 

@@ -1,4 +1,4 @@
-// NCC of the window of each trial, on its tilted plane, against one neighbor, and its vote (the paper, section 2.1 and
+// NCC of the support of each trial, on its tilted plane, against one neighbor, and its vote (the paper, section 2.1 and
 // appendix A, with windows that lie on the surface). Trials that can't win any more are dropped.
 // Twin: engine/depth/score_planes.h.
 #version 460
@@ -15,7 +15,7 @@ layout(constant_id = 1) const int kShift = 12;  // kSampleShift, one more for th
 
 layout(push_constant) uniform Push { ScorePlanesParams p; };
 layout(std430, binding = 0) readonly buffer Reference { uint reference_pixels[]; };
-layout(std430, binding = 1) readonly buffer Windows { ReferenceWindow reference_windows[]; };
+layout(std430, binding = 1) readonly buffer Windows { SupportWindow support_windows[]; };
 layout(std430, binding = 2) readonly buffer Neighbor { uint neighbor_pixels[]; };
 layout(std430, binding = 3) readonly buffer Best { PixelPlane best[]; };
 layout(std430, binding = 4) buffer Trials { PlaneTrial trials[]; };
@@ -33,6 +33,9 @@ void main() {
     WindowPlacement at = place_window(p.warp, x, y, trial.inverse_depth, trial.slope_x, trial.slope_y, kRadius,
                                       p.neighbor_width, p.neighbor_height);
     int neighbor_stride = p.neighbor_width + 1;
+    SupportWindow support = support_windows[pixel];
+    ivec3 middle = sample_pixel(reference_pixels[y * (p.width + 1) + x], kShift);
+    int max_difference = (support.max_difference << 16) >> kShift;
     WindowSums sums = no_sums();
     int samples = at.seen ? kWindow * kWindow : 0;
     for (int i = 0; i < samples; ++i) {
@@ -43,9 +46,13 @@ void main() {
       ivec3 b = sample_bilinear(neighbor_pixels[texel], neighbor_pixels[texel + 1],
                                 neighbor_pixels[texel + neighbor_stride],
                                 neighbor_pixels[texel + neighbor_stride + 1], position.x, position.y, kShift);
-      add_sample(sums, sample_pixel(reference_pixels[(y + dy) * (p.width + 1) + x + dx], kShift), b);
+      ivec3 a = sample_pixel(reference_pixels[(y + dy) * (p.width + 1) + x + dx], kShift);
+      ivec3 difference = abs(a - middle);
+      bool belongs = max(max(difference.x, difference.y), difference.z) <= max_difference;
+      add_sample(sums, a, belongs ? b : ivec3(0));
     }
-    float ncc = at.seen ? ncc_from_sums(reference_windows[pixel], sums, kWindow * kWindow) : kNoNcc;
+    ReferenceWindow window = ReferenceWindow(support.sum, support.inverse_deviation);
+    float ncc = at.seen ? ncc_from_sums(window, sums, support.samples) : kNoNcc;
     if (ncc > p.threshold) {
       precise float sum = trial.ncc_sum + ncc;
       trial.ncc_sum = sum;

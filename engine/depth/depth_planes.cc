@@ -98,7 +98,7 @@ Expected<DepthPlanes> make_depth_planes(const Scene& scene, int reference, const
   } else {
     const double motion = largest_motion(scene, reference, neighbors);
     const double span = 1.0 / near - 1.0 / far;
-    const double steps = std::max(1.0, std::ceil(span * motion / options.step_pixels));
+    const double steps = std::max(1.0, std::ceil(span * motion / options.automatic_step_pixels()));
     const double count = (steps + 1.0) * options.refinement + 1.0;
     if (!(count <= static_cast<double>(kMaxPlanes))) return refuse(count);
     for (int index = 0; index < static_cast<int>(count); ++index) {

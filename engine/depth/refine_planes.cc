@@ -9,8 +9,8 @@
 
 #include "engine/core/clock.h"
 #include "engine/depth/fit_planes.h"
-#include "engine/depth/reference_windows.h"
 #include "engine/depth/score_planes.h"
+#include "engine/depth/support_windows.h"
 #include "engine/depth/sweep_tile.h"
 
 namespace quorum {
@@ -86,7 +86,8 @@ Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& fir
   const double cpu_start = foreground_cpu_seconds();
   const int width = first_pass.width;
   const int height = first_pass.height;
-  const Grid<ReferenceWindow> windows = make_reference_windows(*task.reference, task.options.window);
+  const Grid<SupportWindow> windows =
+      make_support_windows(*task.reference, task.options.window, task.options.support_tolerance);
   Refinement refinement{task,
                         {task, windows, make_vote_rule(task.options, task.neighbor_count()), cpu.simd},
                         inverse_depth_ranges(task.ranges, task.planes),

@@ -2,6 +2,8 @@
 // them; compiled for three instruction sets as the sweep is.
 #include "engine/depth/score_planes.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <memory>
 
 #include "engine/core/check.h"
@@ -28,6 +30,9 @@ struct Workspace {
   Lanes<std::int32_t> squares, products;
   Lanes<std::int32_t> sum_a[3];
   Lanes<float> inverse_deviation;
+  Lanes<std::int32_t> support_samples;
+  Lanes<std::int32_t> center[3];       // samples of the window's center
+  Lanes<std::int32_t> max_difference;  // from the center, of samples
 };
 
 [[gnu::always_inline]] inline void place_windows(const SweepTask& task, std::size_t neighbor, const PlaneBatch& batch,
@@ -64,7 +69,8 @@ struct Workspace {
   }
 }
 
-/// Adds one sample of every window. Interpolates as sample_bilinear(), red and blue in one word.
+/// Adds one sample of every window, or nothing where it does not belong to the support. Interpolates as
+/// sample_bilinear(), red and blue in one word.
 [[gnu::always_inline]] inline void add_samples(int count, int shift, Workspace& work) {
   constexpr std::uint32_t kRedBlue = 0x00ff00ffU;
   const std::int32_t center = 1 << (23 - shift);
@@ -82,15 +88,21 @@ struct Workspace {
     const std::uint32_t bottom = along_x(work.texel[2][i] & kRedBlue, work.texel[3][i] & kRedBlue);
     const std::uint32_t top_green = along_x(green_of(work.texel[0][i]), green_of(work.texel[1][i]));
     const std::uint32_t bottom_green = along_x(green_of(work.texel[2][i]), green_of(work.texel[3][i]));
-    const std::int32_t red = along_y(top & 0xffffU, bottom & 0xffffU);
-    const std::int32_t green = along_y(top_green, bottom_green);
-    const std::int32_t blue = along_y(top >> 16, bottom >> 16);
+    const std::int32_t a_red = sample(red_of(work.reference[i]));
+    const std::int32_t a_green = sample(green_of(work.reference[i]));
+    const std::int32_t a_blue = sample(blue_of(work.reference[i]));
+    const auto apart = [](std::int32_t a, std::int32_t b) { return std::max(a - b, b - a); };
+    const std::int32_t difference = std::max(
+        std::max(apart(a_red, work.center[0][i]), apart(a_green, work.center[1][i])), apart(a_blue, work.center[2][i]));
+    const std::int32_t belongs = (difference - work.max_difference[i] - 1) >> 31;
+    const std::int32_t red = along_y(top & 0xffffU, bottom & 0xffffU) & belongs;
+    const std::int32_t green = along_y(top_green, bottom_green) & belongs;
+    const std::int32_t blue = along_y(top >> 16, bottom >> 16) & belongs;
     work.sum_b[0][i] += red;
     work.sum_b[1][i] += green;
     work.sum_b[2][i] += blue;
     work.squares[i] += red * red + green * green + blue * blue;
-    work.products[i] += sample(red_of(work.reference[i])) * red + sample(green_of(work.reference[i])) * green +
-                        sample(blue_of(work.reference[i])) * blue;
+    work.products[i] += a_red * red + a_green * green + a_blue * blue;
   }
 }
 
@@ -120,10 +132,9 @@ struct Workspace {
 }
 
 /// Adds one neighbor's votes. Same operations as ncc_from_sums().
-[[gnu::always_inline]] inline void vote_for_planes(int window, float threshold, const Workspace& work,
-                                                   PlaneBatch& batch) {
-  const double samples = window * window;
+[[gnu::always_inline]] inline void vote_for_planes(float threshold, const Workspace& work, PlaneBatch& batch) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+    const double samples = work.support_samples[i];
     const double red = work.sum_b[0][i];
     const double green = work.sum_b[1][i];
     const double blue = work.sum_b[2][i];
@@ -155,6 +166,9 @@ void drop_losers(const PlaneScorer& scorer, int left, PlaneBatch& batch, Workspa
       work.reference_index[kept] = work.reference_index[i];
       for (auto& sum : work.sum_a) sum[kept] = sum[i];
       work.inverse_deviation[kept] = work.inverse_deviation[i];
+      work.support_samples[kept] = work.support_samples[i];
+      for (auto& channel : work.center) channel[kept] = channel[i];
+      work.max_difference[kept] = work.max_difference[i];
     }
     ++kept;
   }
@@ -167,9 +181,18 @@ void drop_losers(const PlaneScorer& scorer, int left, PlaneBatch& batch, Workspa
   const int window = task.options.window;
   const int shift = kSampleShift + extra_sample_shift(window);
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-    const ReferenceWindow& reference = scorer.windows.at(batch.x[i], batch.y[i]);
-    for (std::size_t channel = 0; channel < 3; ++channel) work.sum_a[channel][i] = reference.sum[channel];
-    work.inverse_deviation[i] = reference.inverse_deviation;
+    const SupportWindow& support = scorer.windows.at(batch.x[i], batch.y[i]);
+    const Rgba center = task.reference->at(batch.x[i], batch.y[i]);
+    for (std::size_t channel = 0; channel < 3; ++channel) work.sum_a[channel][i] = support.sum[channel];
+    work.inverse_deviation[i] = support.inverse_deviation;
+    work.support_samples[i] = support.samples;
+    const auto sample = [&](std::uint32_t value) {
+      return static_cast<std::int32_t>((value << 16) >> shift) - (1 << (23 - shift));
+    };
+    work.center[0][i] = sample(red_of(center));
+    work.center[1][i] = sample(green_of(center));
+    work.center[2][i] = sample(blue_of(center));
+    work.max_difference[i] = (support.max_difference << 16) >> shift;
     work.reference_index[i] = batch.y[i] * task.reference->stride() + batch.x[i];
     batch.ncc_sum[i] = 0.0F;
     batch.votes[i] = 0;
@@ -178,7 +201,7 @@ void drop_losers(const PlaneScorer& scorer, int left, PlaneBatch& batch, Workspa
   for (int neighbor = 0; neighbor < neighbors && batch.count > 0; ++neighbor) {
     place_windows(task, static_cast<std::size_t>(neighbor), batch, window / 2, work);
     sum_windows(task, static_cast<std::size_t>(neighbor), batch.count, window / 2, shift, work);
-    vote_for_planes(window, scorer.rule.threshold, work, batch);
+    vote_for_planes(scorer.rule.threshold, work, batch);
     samples += static_cast<std::uint64_t>(batch.count) * static_cast<std::uint64_t>(window * window);
     drop_losers(scorer, neighbors - 1 - neighbor, batch, work);
   }
@@ -214,7 +237,8 @@ ScoreFunction choose_score_function(SimdLevel simd) {
 
 }  // namespace
 
-float plane_ncc(const SweepTask& task, int neighbor, int x, int y, const PlaneTrial& plane) {
+float plane_ncc(const SweepTask& task, const SupportWindow& support, int neighbor, int x, int y,
+                const PlaneTrial& plane) {
   const int window = task.options.window;
   const int radius = window / 2;
   const PaddedImage& image = *task.neighbors[static_cast<std::size_t>(neighbor)];
@@ -222,7 +246,10 @@ float plane_ncc(const SweepTask& task, int neighbor, int x, int y, const PlaneTr
                                           plane.slope_x, plane.slope_y, radius, image.width, image.height);
   if (!at.seen) return kNoNcc;
   const int extra_shift = extra_sample_shift(window);
+  const Sample center = sample_bilinear(*task.reference, x * kPositionScale, y * kPositionScale, extra_shift);
+  const int max_difference = (support.max_difference << 16) >> (kSampleShift + extra_shift);
   WindowSums sums;
+  int samples = 0;
   for (int dy = -radius; dy <= radius; ++dy) {
     for (int dx = -radius; dx <= radius; ++dx) {
       const int shift = kPlacementBits - kPositionBits;
@@ -230,10 +257,14 @@ float plane_ncc(const SweepTask& task, int neighbor, int x, int y, const PlaneTr
           sample_bilinear(*task.reference, (x + dx) * kPositionScale, (y + dy) * kPositionScale, extra_shift);
       const Sample b = sample_bilinear(image, (at.u + (dx * at.u_x + dy * at.u_y)) >> shift,
                                        (at.v + (dx * at.v_x + dy * at.v_y)) >> shift, extra_shift);
+      if (std::max({std::abs(a.red - center.red), std::abs(a.green - center.green), std::abs(a.blue - center.blue)}) >
+          max_difference)
+        continue;
       add_sample(sums, a, b);
+      ++samples;
     }
   }
-  return ncc_from_sums(sums, window * window);
+  return ncc_from_sums(sums, samples);
 }
 
 void score_planes(const PlaneScorer& scorer, PlaneBatch& batch, std::uint64_t& samples) {

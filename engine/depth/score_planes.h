@@ -1,5 +1,5 @@
-// Scores of tilted planes, many at a time: NCC of the window of each against every neighbor, and its votes. Planes that
-// can't win any more are dropped after the neighbor that showed it.
+// Scores of tilted planes, many at a time: NCC of the support of each against every neighbor, and its votes. Planes
+// that can't win any more are dropped after the neighbor that showed it.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace quorum {
 /// What scoring needs of a view.
 struct PlaneScorer {
   const SweepTask& task;
-  const Grid<ReferenceWindow>& windows;
+  const Grid<SupportWindow>& windows;
   VoteRule rule;
   SimdLevel simd;
 };
@@ -70,9 +70,10 @@ struct PlaneBatch {
           0};
 }
 
-/// NCC of the window around reference pixel (x, y) on a plane against one neighbor; kNoNcc where the neighbor does not
+/// NCC of the support around reference pixel (x, y) on a plane against one neighbor; kNoNcc where the neighbor does not
 /// see the whole window. One at a time: what score_planes and the kernel must equal.
-float plane_ncc(const SweepTask& task, int neighbor, int x, int y, const PlaneTrial& plane);
+float plane_ncc(const SweepTask& task, const SupportWindow& support, int neighbor, int x, int y,
+                const PlaneTrial& plane);
 
 /// Scores all planes of a batch, neighbors in their order, and keeps the winners. samples: grows by the number of
 /// samples that were interpolated. Equal bytes at every SIMD level. Twin of shaders/score_planes.comp.

@@ -22,9 +22,14 @@ struct SweepOptions {
   float threshold = 0.5F;    ///< NCC above which a neighbor votes for a depth, 0..0.99; the paper: 0.6 (4.1)
   int min_votes = 2;         ///< votes that make a depth valid, 1..32 (paper 2.1)
   double depth_step = 0.0;   ///< distance of depth samples, scene units (the paper's 2.5 mm); 0 = automatic
-  double step_pixels = 1.0;  ///< automatic step: largest motion of the projection in a neighbor, pixels, 0.05..8
+  double step_pixels = 0.0;  ///< automatic step: largest motion of the projection in a neighbor, pixels, 0.05..8;
+                             ///< 0 = automatic: 2 if planes are refined after the first pass, else 1
   int refinement = 10;       ///< the second pass samples at 1 / refinement of the step; 1 = no second pass (paper 4.1)
   WindowModel window_model = WindowModel::kSlanted;
+  int support_tolerance = 15;  ///< of slanted windows, see make_support_windows(), 0..255; 255 = whole windows
+
+  /// The step that step_pixels asks for.
+  [[nodiscard]] double automatic_step_pixels() const;
 
   /// Names the first option that is out of its range, and the range. kUsage.
   [[nodiscard]] Expected<void> check() const;

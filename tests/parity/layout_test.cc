@@ -88,16 +88,19 @@ TEST_F(LayoutParity, StructsAreReadFromArrays) {
   std::vector<SweepItem> items;
   std::vector<SweepBlock> blocks;
   std::vector<ReferenceWindow> windows;
+  std::vector<SupportWindow> supports;
   Words members;
   for (std::uint32_t i = 0; i < 3; ++i) {
-    const auto range = ranges.emplace_back(numbered<PlaneRange>(17 * i));
-    const auto vote = votes.emplace_back(numbered<PixelVote>(17 * i + 2));
-    const auto item = items.emplace_back(numbered<SweepItem>(17 * i + 5));
-    const auto block = blocks.emplace_back(numbered<SweepBlock>(17 * i + 9));
-    const auto window = windows.emplace_back(numbered<ReferenceWindow>(17 * i + 13));
+    const auto range = ranges.emplace_back(numbered<PlaneRange>(23 * i));
+    const auto vote = votes.emplace_back(numbered<PixelVote>(23 * i + 2));
+    const auto item = items.emplace_back(numbered<SweepItem>(23 * i + 5));
+    const auto block = blocks.emplace_back(numbered<SweepBlock>(23 * i + 9));
+    const auto window = windows.emplace_back(numbered<ReferenceWindow>(23 * i + 13));
+    const auto support = supports.emplace_back(numbered<SupportWindow>(23 * i + 17));
     const Words words = words_of(range.first, range.last, vote.correlation, vote.confidence, vote.plane, item.x, item.y,
                                  item.plane, item.inverse_depth, block.x, block.y, block.item_begin, block.item_count,
-                                 window.sum, window.inverse_deviation);
+                                 window.sum, window.inverse_deviation, support.sum, support.inverse_deviation,
+                                 support.samples, support.max_difference);
     members.insert(members.end(), words.begin(), words.end());
   }
   const Buffer words = buffer_of(Words(members.size()));
@@ -108,7 +111,9 @@ TEST_F(LayoutParity, StructsAreReadFromArrays) {
   const Buffer item_buffer = buffer_of(items);
   const Buffer block_buffer = buffer_of(blocks);
   const Buffer window_buffer = buffer_of(windows);
-  commands.dispatch(probe, {}, {range_buffer, vote_buffer, item_buffer, block_buffer, window_buffer, words});
+  const Buffer support_buffer = buffer_of(supports);
+  commands.dispatch(probe, {},
+                    {range_buffer, vote_buffer, item_buffer, block_buffer, window_buffer, support_buffer, words});
   submit(commands);
   same_words(content<std::uint32_t>(words), members, 1, "probe_storage");
 }

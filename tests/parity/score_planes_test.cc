@@ -1,4 +1,4 @@
-#include "engine/depth/reference_windows.h"
+#include "engine/depth/support_windows.h"
 #include "tests/parity/plane_input.h"
 
 namespace quorum {
@@ -7,7 +7,7 @@ namespace {
 class ScorePlanesParity : public ParityTest {
  protected:
   /// The trials of a view after each neighbor, on the device and window by window.
-  static void compare(int window, bool flip, int width, int height, unsigned seed) {
+  static void compare(int window, int tolerance, bool flip, int width, int height, unsigned seed) {
     SweepOptions options;
     options.window = window;
     options.threshold = 0.4F;
@@ -26,7 +26,8 @@ class ScorePlanesParity : public ParityTest {
         kernel("score_planes", {{"kWindow", static_cast<std::uint32_t>(window)},
                                 {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(window))}});
     const Buffer reference = buffer_of(task.reference->pixels);
-    const Buffer windows = buffer_of(make_reference_windows(*task.reference, window).values);
+    const Grid<SupportWindow> supports = make_support_windows(*task.reference, window, tolerance);
+    const Buffer windows = buffer_of(supports.values);
     const Buffer best_buffer = buffer_of(best.values);
     const Buffer trials = buffer_of(twin);
     std::int64_t alive = 0;
@@ -49,8 +50,8 @@ class ScorePlanesParity : public ParityTest {
       for (std::size_t pixel = 0; pixel < twin.size(); ++pixel) {
         PlaneTrial& trial = twin[pixel];
         if (trial.inverse_depth == 0.0F) continue;
-        const float ncc =
-            plane_ncc(task, neighbor, static_cast<int>(pixel) % width, static_cast<int>(pixel) / width, trial);
+        const float ncc = plane_ncc(task, supports.values[pixel], neighbor, static_cast<int>(pixel) % width,
+                                    static_cast<int>(pixel) / width, trial);
         if (ncc > rule.threshold) {
           trial.ncc_sum += ncc;
           ++trial.votes;
@@ -59,8 +60,8 @@ class ScorePlanesParity : public ParityTest {
         if (!can_win(trial.ncc_sum, trial.votes, left, best.values[pixel].confidence, rule)) trial = PlaneTrial{};
         alive += trial.inverse_depth != 0.0F ? 1 : 0;
       }
-      const std::string what =
-          fmt::format("window {} {}x{} flip {} seed {} neighbor {}", window, width, height, flip, seed, neighbor);
+      const std::string what = fmt::format("window {} tolerance {} {}x{} flip {} seed {} neighbor {}", window,
+                                           tolerance, width, height, flip, seed, neighbor);
       ASSERT_TRUE(same_words(content<PlaneTrial>(trials), twin, width, what));
     }
     expect_share(alive, std::int64_t{width} * height, 0.002, 0.9, "trials that win");
@@ -71,8 +72,8 @@ class ScorePlanesParity : public ParityTest {
 TEST_F(ScorePlanesParity, EveryWindowGivesTheBytesOfTheTwin) {
   unsigned seed = 1;
   for (const int window : {3, 5, 9, 15}) {
-    compare(window, true, 67, 45, seed++);
-    compare(window, false, 131, 61, seed++);
+    compare(window, 30, true, 67, 45, seed++);
+    compare(window, 255, false, 131, 61, seed++);
     if (HasFailure()) return;
   }
 }

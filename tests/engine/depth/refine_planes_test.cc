@@ -11,8 +11,8 @@
 
 #include "engine/depth/fit_planes.h"
 #include "engine/depth/plane_window.h"
-#include "engine/depth/reference_windows.h"
 #include "engine/depth/score_planes.h"
+#include "engine/depth/support_windows.h"
 #include "tests/support/sphere_scene.h"
 
 namespace quorum {
@@ -105,7 +105,7 @@ TEST(ScorePlanes, ManyAtATimeGiveTheSameBytesAsOne) {
     options.window = window;
     const SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, true, static_cast<unsigned>(window));
     const SweepTask task = make_sphere_task(sphere, 1, options);
-    const Grid<ReferenceWindow> windows = make_reference_windows(*task.reference, window);
+    const Grid<SupportWindow> windows = make_support_windows(*task.reference, window, 40);
     const VoteRule rule = make_vote_rule(options, task.neighbor_count());
     for (const SimdLevel simd : simd_levels()) {
       const PlaneScorer scorer{task, windows, rule, simd};
@@ -118,7 +118,7 @@ TEST(ScorePlanes, ManyAtATimeGiveTheSameBytesAsOne) {
         const float least = random() % 3 == 0 ? 0.5F : 0.0F;
         batch->add(x, y, plane, least);
         for (int neighbor = 0; neighbor < task.neighbor_count(); ++neighbor) {
-          const float ncc = plane_ncc(task, neighbor, x, y, plane);
+          const float ncc = plane_ncc(task, windows.at(x, y), neighbor, x, y, plane);
           if (ncc > rule.threshold) plane.ncc_sum += ncc, ++plane.votes;
         }
         if (can_win(plane.ncc_sum, plane.votes, 0, least, rule)) expected.push_back(plane);

@@ -9,11 +9,12 @@ layout(std430, binding = 1) readonly buffer Votes { PixelVote votes[]; };
 layout(std430, binding = 2) readonly buffer Items { SweepItem items[]; };
 layout(std430, binding = 3) readonly buffer Blocks { SweepBlock blocks[]; };
 layout(std430, binding = 4) readonly buffer Windows { ReferenceWindow windows[]; };
-layout(std430, binding = 5) writeonly buffer Words { uint words[]; };
+layout(std430, binding = 5) readonly buffer Supports { SupportWindow supports[]; };
+layout(std430, binding = 6) writeonly buffer Words { uint words[]; };
 
 void main() {
   for (int i = 0; i < 3; ++i) {
-    int first = 17 * i;
+    int first = 23 * i;
     words[first] = ranges[i].first;
     words[first + 1] = ranges[i].last;
     words[first + 2] = floatBitsToUint(votes[i].correlation);
@@ -29,5 +30,9 @@ void main() {
     words[first + 12] = uint(blocks[i].item_count);
     for (int channel = 0; channel < 3; ++channel) words[first + 13 + channel] = uint(windows[i].sum[channel]);
     words[first + 16] = floatBitsToUint(windows[i].inverse_deviation);
+    for (int channel = 0; channel < 3; ++channel) words[first + 17 + channel] = uint(supports[i].sum[channel]);
+    words[first + 20] = floatBitsToUint(supports[i].inverse_deviation);
+    words[first + 21] = uint(supports[i].samples);
+    words[first + 22] = uint(supports[i].max_difference);
   }
 }
