@@ -67,6 +67,7 @@ void main() {
   float limit_v = float(p.height - 1);
   int last_pixel = p.width * p.height - 1;  // has no triangle
   const float scale = float(kDistanceScale);
+  const float mean_of_cosines = 0.5 / float(kCosineScale);
 
   uvec4 kept = uvec4(0u);
   uint near = 0u;  // bit i: the voxel of layer i is within the truncation
@@ -89,8 +90,13 @@ void main() {
     precise float ray_y = (at.v - p.principal_y) * p.inverse_focal_y;
     precise float ray_squared = ray_x * ray_x + (ray_y * ray_y + 1.0);
     precise float ray_length = ray_squared * reciprocal_sqrt(ray_squared);
+    // Both ends of the cell's diagonal.
+    uint cosines = (weights[corner + (split_03 ? 0 : 1)] >> kWeightBits) +
+                   (weights[corner + width + (split_03 ? 1 : 0)] >> kWeightBits);
+    precise float cosine = float(int(cosines)) * mean_of_cosines;
     precise float distance =
-        ((interpolate_cell(split_03, second, depths, fraction) - at.depth) * ray_length) * p.inverse_truncation;
+        (((interpolate_cell(split_03, second, depths, fraction) - at.depth) * ray_length) * cosine) *
+        p.inverse_truncation;
     bool is_near = on_surface && distance >= -kBehindShare && distance <= 1.0;
     precise float scaled_distance = (is_near ? distance : 0.0) * scale + (scale + 0.5);
     uint bits = uint(int(scaled_distance)) | (split_03 ? kSplit03 : 0u) | (second ? kSecond : 0u);
@@ -111,7 +117,8 @@ void main() {
     precise vec2 fraction = vec2(at.u - float(cell_x), at.v - float(cell_y));
     int pixel = cell_y * width + cell_x;
     vec4 corner_weights =
-        vec4(uvec4(weights[pixel], weights[pixel + 1], weights[pixel + width], weights[pixel + width + 1]));
+        vec4(uvec4(weights[pixel], weights[pixel + 1], weights[pixel + width], weights[pixel + width + 1]) &
+             uint(kWeightScale));
     precise float rounded_weight = interpolate_cell(split_03, second, corner_weights, fraction) + 0.5;
     int weight = int(rounded_weight);
 

@@ -1,4 +1,5 @@
-// The weights of a range surface's vertices: confidence, grazing angle, distance from borders (the paper, section 2.2).
+// The weights of a range surface's vertices: confidence, grazing angle, distance from borders (the paper, section 2.2);
+// beside each the cosine of distances.
 // Twin: engine/volume/weigh_surface.cc.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -74,5 +75,8 @@ void main() {
   float slant_factor = (p.factors & kWeighSlant) != 0u ? cosine : 1.0;
   precise float border_factor = (p.factors & kWeighBorder) != 0u ? ramp * ramp : 1.0;
   precise float weight = ((confidence_factor * slant_factor) * border_factor) * float(kWeightScale) + 0.5;
-  weights[pixel] = uint(clamp(int(weight), 1, kWeightScale));
+  float distance_factor = (p.factors & kDistanceAlongNormal) != 0u ? cosine : 1.0;
+  precise float scaled_cosine = distance_factor * float(kCosineScale) + 0.5;
+  int cosine_bits = clamp(int(scaled_cosine), 1, kCosineScale) << kWeightBits;
+  weights[pixel] = uint(clamp(int(weight), 1, kWeightScale) + cosine_bits);
 }

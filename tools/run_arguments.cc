@@ -77,6 +77,7 @@ Expected<void> resolve(RunArguments& arguments) {
     if (arguments.window_model == window_model_name(model)) options.sweep.window_model = model;
   if (arguments.no_slant && options.sweep.window_model == WindowModel::kSlanted)
     options.sweep.window_model = WindowModel::kPlane;
+  options.fusion.signed_distance = arguments.signed_distance == "ray" ? SignedDistance::kRay : SignedDistance::kNormal;
   options.views.rule = arguments.view_rule == "points"  ? ViewRule::kPoints
                        : arguments.view_rule == "angle" ? ViewRule::kAngle
                                                         : ViewRule::kAutomatic;
@@ -182,7 +183,13 @@ void RunArguments::add_depth_options(CLI::App& app) {
       ->capture_default_str()
       ->group(group);
   app.add_option("--step-pixels", options.sweep.step_pixels,
-                 "Automatic step: largest motion in a compared view, pixels")
+                 "Automatic step: largest motion in a compared view, pixels; 0: 2 for slanted windows, else 1")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option(
+         "--support-tolerance", options.sweep.support_tolerance,
+         "Pixels of a slanted window whose colors differ by more from its center's are left out, as long as 9 of "
+         "25 stay; 255: none")
       ->capture_default_str()
       ->group(group);
   app.add_option("--refinement", options.sweep.refinement,
@@ -200,7 +207,13 @@ void RunArguments::add_fusion_options(CLI::App& app) {
   app.add_option("--voxel-size", voxel_size, "Edge of a voxel, such as 0.5mm; auto: a pixel's footprint")
       ->capture_default_str()
       ->group(group);
-  app.add_option("--truncation", truncation, "Distance from a surface up to which voxels are filled; auto: 4 voxels")
+  app.add_option("--truncation", truncation,
+                 "Distance from a surface up to which voxels are filled; auto: 3 voxels; 4 with ray")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--signed-distance", signed_distance,
+                 "Along what voxels measure it: normal of the surface, or ray, the line of sight as in the paper")
+      ->check(CLI::IsMember({"normal", "ray"}))
       ->capture_default_str()
       ->group(group);
   app.add_option("--max-slope", options.fusion.max_slope_deg, "Steepest triangle of a depth map, degrees")

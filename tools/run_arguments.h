@@ -25,6 +25,7 @@ struct RunArguments {
   std::string simd = "auto";
   std::vector<int> tile = {64, 16};
   std::string window_model = "slanted";
+  std::string signed_distance = "normal";
   bool no_slant = false;
   std::string depth_step = "auto";
   std::string voxel_size = "auto";

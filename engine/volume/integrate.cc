@@ -26,6 +26,7 @@ struct Workspace {
   std::int32_t voxel[kBlockVoxels];      // number in the block
   std::uint32_t triangle[kBlockVoxels];  // kSideCount times the bits of the cell, and kSide… bits
   float corner[4][kBlockVoxels];         // depths of the cell
+  std::int32_t cosines[kBlockVoxels];    // sum of those at both ends of the cell's diagonal, in 1/kCosineScale
   std::int32_t signed_distance[kBlockVoxels];
   std::int32_t kept[kBlockVoxels];
 
@@ -125,7 +126,7 @@ constexpr std::uint32_t kExists = [] {
   }
 }
 
-/// Keeps the voxels that land in a triangle, and reads its cell's depths. Returns how many.
+/// Keeps the voxels that land in a triangle, and reads its cell's depths and cosines. Returns how many.
 [[gnu::always_inline]] inline int keep_on_surface(const WeightedSurface& surface, Workspace& work) {
   const std::uint32_t* cells = surface.cells.values.data();
   int count = 0;
@@ -147,6 +148,10 @@ constexpr std::uint32_t kExists = [] {
     work.corner[1][i] = depth[1];
     work.corner[2][i] = depth[width];
     work.corner[3][i] = depth[width + 1];
+    const std::uint32_t* weights = surface.weights.values.data() + work.pixel[i];
+    const std::ptrdiff_t first = is_split_03(work.triangle[i]) ? 0 : 1;
+    work.cosines[i] =
+        static_cast<std::int32_t>((weights[first] >> kWeightBits) + (weights[width + 1 - first] >> kWeightBits));
   }
   return count;
 }
@@ -154,6 +159,7 @@ constexpr std::uint32_t kExists = [] {
 /// Signed distance of the first count voxels.
 [[gnu::always_inline]] inline void measure_distances(const IntegrateParams& params, int count, Workspace& work) {
   constexpr float kScale = static_cast<float>(kDistanceScale);
+  constexpr float kMeanOfCosines = 0.5F / static_cast<float>(kCosineScale);
   const float principal_x = params.principal_x;
   const float principal_y = params.principal_y;
   const float inverse_focal_x = params.inverse_focal_x;
@@ -171,7 +177,8 @@ constexpr std::uint32_t kExists = [] {
     const float surface_depth =
         interpolate_cell(is_split_03(work.triangle[i]), is_second(work.triangle[i]), work.corner[0][i],
                          work.corner[1][i], work.corner[2][i], work.corner[3][i], fraction_x, fraction_y);
-    const float distance = ((surface_depth - work.depth[i]) * ray_length) * inverse_truncation;
+    const float cosine = static_cast<float>(work.cosines[i]) * kMeanOfCosines;
+    const float distance = (((surface_depth - work.depth[i]) * ray_length) * cosine) * inverse_truncation;
     const bool near = (distance >= -kBehindShare) & (distance <= 1.0F);
     const float near_distance = near ? distance : 0.0F;
     const int signed_distance = static_cast<int>(near_distance * kScale + (kScale + 0.5F)) - kDistanceScale;
@@ -212,7 +219,9 @@ constexpr std::uint32_t kExists = [] {
     const float v = work.v[i];
     const float fraction_x = u - static_cast<float>(static_cast<int>(u));
     const float fraction_y = v - static_cast<float>(static_cast<int>(v));
-    const auto corner = [&](int index) { return static_cast<float>(static_cast<std::int32_t>(work.word[index][i])); };
+    const auto corner = [&](int index) {
+      return static_cast<float>(static_cast<std::int32_t>(work.word[index][i] & kWeightScale));
+    };
     const int weight =
         static_cast<int>(interpolate_cell(is_split_03(work.triangle[i]), is_second(work.triangle[i]), corner(0),
                                           corner(1), corner(2), corner(3), fraction_x, fraction_y) +

@@ -1,4 +1,4 @@
-// Adds one range surface to the voxels near it: signed distance along the line of sight, weight and color (the paper,
+// Adds one range surface to the voxels near it: signed distance along the normal, weight and color (the paper,
 // section 2.2; Curless and Levoy 1996), in integer sums. Twin of shaders/integrate.comp.
 #pragma once
 

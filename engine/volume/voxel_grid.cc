@@ -34,13 +34,13 @@ double median_footprint(const Scene& scene) {
 }  // namespace
 
 Expected<VoxelGrid> make_voxel_grid(const Scene& scene, const FusionOptions& options) {
-  constexpr double kTruncationInVoxels = 4.0;
   constexpr double kMaxBlocks = 1 << 30;
   VoxelGrid grid;
   grid.voxel_size = options.voxel_size > 0 ? options.voxel_size : median_footprint(scene);
   if (!(grid.voxel_size > 0))
     return failure(ErrorKind::kInput, "the center of the bounds lies behind every camera; check --bounds");
-  grid.truncation = options.truncation > 0 ? options.truncation : kTruncationInVoxels * grid.voxel_size;
+  const double truncation_in_voxels = options.signed_distance == SignedDistance::kNormal ? 3.0 : 4.0;
+  grid.truncation = options.truncation > 0 ? options.truncation : truncation_in_voxels * grid.voxel_size;
   if (grid.truncation < 1.5 * grid.voxel_size || grid.truncation > 32 * grid.voxel_size)
     return failure(ErrorKind::kUsage, fmt::format("--truncation {}: give 1.5 to 32 times the voxel size {}",
                                                   grid.truncation, grid.voxel_size));

@@ -35,7 +35,8 @@ struct VoxelGrid {
 
 /// The lattice over the scene's bounds and one truncation more on each side. Automatic voxel size: the median of a
 /// pixel's footprint at the sparse points within the bounds, over the views that see them, or, without points, at the
-/// center of the bounds, over all views; automatic truncation: 4 voxels.
+/// center of the bounds, over all views; automatic truncation: 3 voxels, or 4 of
+/// a distance along the line of sight.
 /// Fails (kUsage) if the grid would have more than 2^30 blocks, or the truncation is out of 1.5..32 voxels.
 Expected<VoxelGrid> make_voxel_grid(const Scene& scene, const FusionOptions& options);
 

@@ -61,7 +61,8 @@ WeighSurfaceParams make_weigh_surface_params(const Camera& camera, int width, in
           static_cast<float>(k(1, 2)),
           make_range_surface_params(camera, width, height, options).max_step,
           options.feather,
-          (options.weigh_confidence ? kWeighConfidence : 0U) | (options.weigh_slant ? kWeighSlant : 0U) |
+          (options.signed_distance == SignedDistance::kNormal ? kDistanceAlongNormal : 0U) |
+              (options.weigh_confidence ? kWeighConfidence : 0U) | (options.weigh_slant ? kWeighSlant : 0U) |
               (options.weigh_border ? kWeighBorder : 0U)};
 }
 
@@ -92,7 +93,11 @@ Grid<std::uint32_t> weigh_surface(const Grid<float>& depth, const Grid<float>& c
       const float border_factor = (params.factors & kWeighBorder) != 0 ? ramp * ramp : 1.0F;
       const float weight =
           ((confidence_factor * slant_factor) * border_factor) * static_cast<float>(kWeightScale) + 0.5F;
-      weights.at(x, y) = static_cast<std::uint32_t>(std::clamp(static_cast<int>(weight), 1, kWeightScale));
+      const float distance_factor = (params.factors & kDistanceAlongNormal) != 0 ? cosine : 1.0F;
+      const float scaled_cosine = distance_factor * static_cast<float>(kCosineScale) + 0.5F;
+      const int cosine_bits = std::clamp(static_cast<int>(scaled_cosine), 1, kCosineScale) << kWeightBits;
+      weights.at(x, y) =
+          static_cast<std::uint32_t>(std::clamp(static_cast<int>(weight), 1, kWeightScale) + cosine_bits);
     }
   });
   return weights;

@@ -9,7 +9,9 @@ namespace quorum {
 
 WeighSurfaceParams make_weigh_surface_params(const Camera& camera, int width, int height, const FusionOptions& options);
 
-/// Weight per pixel, 0..kWeightScale: at least 1 at every corner of a triangle, 0 elsewhere.
+/// A word per pixel: the weight, 0..kWeightScale, at least 1 at every corner of a triangle and 0 elsewhere; above its
+/// kWeightBits the cosine that turns a distance along the line of sight into the distance that the volume takes, in
+/// 1/kCosineScale, 0 where the weight is 0.
 Grid<std::uint32_t> weigh_surface(const Grid<float>& depth, const Grid<float>& confidence,
                                   const Grid<std::uint32_t>& cells, const WeighSurfaceParams& params);
 

@@ -10,11 +10,19 @@ namespace {
 constexpr int kSide = 31;
 constexpr int kCenter = kSide / 2;
 
-Grid<std::uint32_t> weigh(const Camera& camera, const Grid<float>& depth, float confidence,
-                          const FusionOptions& options) {
+Grid<std::uint32_t> words_of_surface(const Camera& camera, const Grid<float>& depth, float confidence,
+                                     const FusionOptions& options) {
   const auto cells = range_surface(depth, make_range_surface_params(camera, depth.width, depth.height, options));
   return weigh_surface(depth, Grid<float>(depth.width, depth.height, confidence), cells,
                        make_weigh_surface_params(camera, depth.width, depth.height, options));
+}
+
+/// The weights without the cosines.
+Grid<std::uint32_t> weigh(const Camera& camera, const Grid<float>& depth, float confidence,
+                          const FusionOptions& options) {
+  Grid<std::uint32_t> weights = words_of_surface(camera, depth, confidence, options);
+  for (std::uint32_t& word : weights.values) word &= kWeightScale;
+  return weights;
 }
 
 TEST(WeighSurface, AFacingPlaneOfFullConfidenceHasFullWeightWithin) {
@@ -41,6 +49,22 @@ TEST(WeighSurface, TheWeightIsTheCosineOfTheAngleToTheLineOfSight) {
         EXPECT_NEAR(weights.at(x, y), 255 * cosine, 1.5) << angle << " degrees at " << x << " " << y;
       }
     }
+  }
+}
+
+TEST(WeighSurface, DistancesAreTakenAlongTheNormalUnlessTheLineOfSightIsAskedFor) {
+  const Camera camera = straight_camera(kSide, kSide, 1000);
+  FusionOptions options;
+  options.weigh_slant = false;
+  for (const double angle : {0.0, 45.0, 60.0}) {
+    const auto depth = plane_depth(camera, kSide, kSide, 2.0, angle);
+    options.signed_distance = SignedDistance::kNormal;
+    const double expected = std::cos(angle * std::numbers::pi / 180.0);
+    const auto along_normal = words_of_surface(camera, depth, 1.0F, options);
+    EXPECT_NEAR((along_normal.at(kCenter, kCenter) >> kWeightBits) / static_cast<double>(kCosineScale), expected, 2e-3);
+    options.signed_distance = SignedDistance::kRay;
+    EXPECT_EQ(words_of_surface(camera, depth, 1.0F, options).at(kCenter, kCenter) >> kWeightBits,
+              static_cast<std::uint32_t>(kCosineScale));
   }
 }
 
