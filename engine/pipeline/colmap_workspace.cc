@@ -9,6 +9,7 @@
 #include "engine/io/colmap_map.h"
 #include "engine/io/file.h"
 #include "engine/io/scene_pictures.h"
+#include "engine/pipeline/memory_budget.h"
 #include "engine/volume/depth_normals.h"
 
 namespace quorum {
@@ -86,6 +87,31 @@ Expected<void> write_lists(const fs::path& stereo, const std::vector<std::string
   return write_file(stereo / "fusion.cfg", fused);
 }
 
+/// What is held at most: the maps of a view and of one neighbor with its normals and a file's bytes, a photograph, and
+/// the model's points, in memory and as bytes.
+std::uint64_t workspace_bytes(const Scene& scene, const std::vector<Reference>& references) {
+  constexpr std::uint64_t kPixelBytes = 12 + 12 + 12 + 12;
+  constexpr std::uint64_t kPhotographBytes = 16;
+  constexpr std::uint64_t kPointBytes = 200;
+  constexpr std::uint64_t kSightingBytes = 100;
+  const auto area = [](int width, int height) {
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  };
+  std::uint64_t pixels = 0;
+  std::uint64_t photograph = 0;
+  for (const View& view : scene.views) {
+    pixels = std::max(pixels, area(view.width, view.height));
+    photograph = std::max(photograph, area(view.photo_width, view.photo_height));
+  }
+  std::uint64_t points = 0;
+  for (const SparsePoint& point : scene.points) points += kPointBytes + kSightingBytes * point.views.size();
+  if (scene.points.empty())  // one for every 64 pixels of a depth map, as add_points makes them
+    for (const Reference& reference : references)
+      points += area(view_at(scene, reference.view).width, view_at(scene, reference.view).height) / 64 *
+                (kPointBytes + kSightingBytes * (1 + reference.neighbors.size()));
+  return kPixelBytes * pixels + kPhotographBytes * std::max(pixels, photograph) + points;
+}
+
 }  // namespace
 
 Expected<void> write_colmap_workspace(const fs::path& folder, const Scene& scene, const ReconstructOptions& options,
@@ -98,6 +124,8 @@ Expected<void> write_colmap_workspace(const fs::path& folder, const Scene& scene
   if (references.empty())
     return failure(ErrorKind::kInput, fmt::format("{}: holds no depth map of this scene; run `quorum depth` first",
                                                   (workspace.folder() / "depth").string()));
+  const MemoryBudget budget(options.memory_bytes);
+  if (auto fits = budget.require(workspace_bytes(scene, references), "writing for COLMAP"); !fits) return fits;
   for (const char* name : {"images", "sparse", "stereo/depth_maps", "stereo/normal_maps", "stereo/consistency_graphs"})
     if (auto made = make_folder(folder / name); !made) return made;
   const std::vector<std::string> names = picture_names(scene);
