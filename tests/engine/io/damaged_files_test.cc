@@ -142,7 +142,7 @@ TEST_P(DamagedFiles, AreReadOrRefusedOnOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllFormats, DamagedFiles, testing::ValuesIn(kFiles),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& file) { return std::string(file.param.name); });
 
 }  // namespace
 }  // namespace quorum
