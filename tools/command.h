@@ -17,6 +17,7 @@ int depth_command(int argc, char** argv);
 int fuse_command(int argc, char** argv);
 int evaluate_command(int argc, char** argv);
 int render_command(int argc, char** argv);
+int convert_command(int argc, char** argv);
 int synthesize_command(int argc, char** argv);
 int experiment_command(int argc, char** argv);
 int devices_command(int argc, char** argv);

@@ -21,6 +21,7 @@ constexpr Command kCommands[] = {
     {"fuse", "the mesh from depth maps computed before", quorum::fuse_command},
     {"evaluate", "accuracy and completeness of a mesh against the truth", quorum::evaluate_command},
     {"render", "a picture of a mesh from one of the scene's cameras", quorum::render_command},
+    {"convert", "a scene in the format of other programs", quorum::convert_command},
     {"synthesize", "make a scene with known surface to try things on", quorum::synthesize_command},
     {"experiment", "the experiments of the paper, with a table and figures", quorum::experiment_command},
     {"devices", "what a run could work on, and what it would choose", quorum::devices_command},

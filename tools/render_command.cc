@@ -1,4 +1,4 @@
-// quorum render: a picture of a mesh from one of the scene's cameras.
+// quorum render: a picture of a mesh or a cloud from one of the scene's cameras.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include "engine/io/image_file.h"
 #include "engine/io/ply.h"
 #include "engine/io/scene_folder.h"
-#include "engine/mesh/render.h"
+#include "engine/mesh/render_points.h"
 #include "tools/run_arguments.h"
 
 namespace quorum {
@@ -54,7 +54,8 @@ Expected<void> render_file(const RenderArguments& arguments) {
                                                   scene->views.front().name, scene->views.back().name));
   const auto mesh = read_mesh(arguments);
   if (!mesh) return std::unexpected(mesh.error());
-  const auto image = render_mesh(*mesh, view->camera, view->width, view->height, options);
+  const auto render = mesh->triangles.empty() ? render_points : render_mesh;
+  const auto image = render(*mesh, view->camera, view->width, view->height, options);
   if (!image) return std::unexpected(image.error());
   return write_png(arguments.output, *image);
 }
@@ -62,7 +63,7 @@ Expected<void> render_file(const RenderArguments& arguments) {
 }  // namespace
 
 int render_command(int argc, char** argv) {
-  CLI::App app("Draw a mesh as one of the scene's cameras sees it.", "render");
+  CLI::App app("Draw a mesh, or a cloud of points, as one of the scene's cameras sees it.", "render");
   RenderArguments arguments;
   app.add_option("mesh", arguments.mesh, "PLY file")->required();
   app.add_option("--scene", arguments.scene, "Folder of the scene")->required();

@@ -18,10 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kTitle = "# Bundle file";
 
-std::unexpected<Error> path_failure(const fs::path& path, std::string_view message) {
-  return failure(ErrorKind::kInput, fmt::format("{}: {}", path.string(), message));
-}
-
 struct BundleCamera {
   double focal = 0.0;  ///< 0 = not found
   double k1 = 0.0;

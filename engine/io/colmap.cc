@@ -2,21 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <unordered_map>
 
+#include "engine/camera/pose.h"
+#include "engine/io/text.h"
 #include "engine/io/view_list.h"
 
 namespace quorum {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::unexpected<Error> path_failure(const fs::path& path, std::string_view message) {
-  return failure(ErrorKind::kInput, fmt::format("{}: {}", path.string(), message));
-}
 
 /// The folder in which the first image stands.
 Expected<fs::path> find_images(const fs::path& folder, const fs::path& model, const fs::path& given,
@@ -31,12 +28,11 @@ Expected<fs::path> find_images(const fs::path& folder, const fs::path& model, co
 }
 
 Expected<Camera> camera_of(const ColmapImage& image) {
-  const auto& q = image.rotation;
-  const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
+  const double norm = Eigen::Map<const Eigen::Vector4d>(image.rotation.data()).norm();
   Camera camera;
-  camera.camera_from_world = rotation.normalized().toRotationMatrix();
+  camera.camera_from_world = rotation_of_quaternion(image.rotation);
   camera.translation = image.translation;
-  if (const char* defect = camera_defect(camera); defect != nullptr || !(rotation.norm() > 1e-6))
+  if (const char* defect = camera_defect(camera); defect != nullptr || !(norm > 1e-6))
     return failure(ErrorKind::kInput, fmt::format("image {} (\"{}\"): its pose is none: {}", image.id, image.name,
                                                   defect != nullptr ? defect : "the quaternion is zero"));
   return camera;
@@ -56,6 +52,11 @@ std::vector<SparsePoint> points_of(const ColmapModel& model, const std::unordere
     points.push_back(std::move(seen));
   }
   return points;
+}
+
+const ColmapCameraModel& pinhole_model() {
+  constexpr int kPinhole = 1;
+  return *std::ranges::find(colmap_camera_models(), kPinhole, &ColmapCameraModel::id);
 }
 
 }  // namespace
@@ -112,6 +113,30 @@ Expected<Scene> read_colmap(const fs::path& folder, const fs::path& images) {
   auto views = list.finish();
   if (!views) return std::unexpected(views.error().within(model_folder.string()));
   return Scene{std::move(*views), {}, points_of(*model, view_of)};
+}
+
+ColmapModel colmap_model_of(const std::vector<View>& views, const std::vector<std::string>& names,
+                            const std::vector<SparsePoint>& points) {
+  ColmapModel model;
+  for (std::uint32_t index = 0; index < views.size(); ++index) {
+    const View& view = views[index];
+    const Camera& camera = view.camera;
+    const Eigen::Matrix3d& k = camera.intrinsics;
+    model.cameras.push_back(
+        {index + 1, &pinhole_model(), view.width, view.height, {k(0, 0), k(1, 1), k(0, 2) + 0.5, k(1, 2) + 0.5}});
+    model.images.push_back(
+        {index + 1, quaternion_of_rotation(camera.camera_from_world), camera.translation, index + 1, names[index], {}});
+  }
+  std::uint64_t id = 0;
+  for (const SparsePoint& point : points) {
+    model.points.push_back({++id, point.position, {128, 128, 128}, {}});
+    for (const int view : point.views) {
+      const auto index = static_cast<std::size_t>(view);
+      const Eigen::Vector3d pixel = views[index].camera.project(point.position);
+      model.images[index].observations.push_back({pixel.head<2>().array() + 0.5, id});
+    }
+  }
+  return model;
 }
 
 }  // namespace quorum

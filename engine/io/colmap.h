@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/io/colmap_model.h"
@@ -22,5 +24,10 @@ Lens lens_of(const ColmapCamera& camera);
 /// empty. Fails (kInput) as read_colmap_model does, if there are fewer than three images, or one is absent, or a camera
 /// is none or has another size than its image.
 Expected<Scene> read_colmap(const std::filesystem::path& folder, const std::filesystem::path& images);
+
+/// The model of views whose pictures have these names: a camera PINHOLE for each view, with its pose, and the points in
+/// gray, seen where the views show them. Skew is lost.
+ColmapModel colmap_model_of(const std::vector<View>& views, const std::vector<std::string>& names,
+                            const std::vector<SparsePoint>& points);
 
 }  // namespace quorum

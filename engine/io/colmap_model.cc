@@ -9,6 +9,7 @@
 
 #include "engine/io/colmap_files.h"
 #include "engine/io/file.h"
+#include "engine/io/text.h"
 
 namespace quorum {
 namespace {
@@ -20,10 +21,6 @@ constexpr ColmapCameraModel kModels[] = {{"SIMPLE_PINHOLE", 0, 1, 0, false}, {"P
                                          {"OPENCV", 4, 2, 4, false},         {"OPENCV_FISHEYE", 5, 2, 4, true},
                                          {"FULL_OPENCV", 6, 2, 8, false},    {"SIMPLE_RADIAL_FISHEYE", 8, 1, 1, true},
                                          {"RADIAL_FISHEYE", 9, 1, 2, true}};
-
-std::unexpected<Error> path_failure(const fs::path& path, std::string_view message) {
-  return failure(ErrorKind::kInput, fmt::format("{}: {}", path.string(), message));
-}
 
 template <typename Record>
 using Parser = Expected<std::vector<Record>> (*)(const fs::path&, std::string_view);

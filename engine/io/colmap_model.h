@@ -80,4 +80,8 @@ Expected<ColmapModel> read_colmap_model(const std::filesystem::path& folder);
 /// order of the images. Fails (kInput) if a file can't be written.
 Expected<void> write_colmap_model(const std::filesystem::path& folder, const ColmapModel& model);
 
+/// The same as cameras.txt, images.txt and points3D.txt, with the shortest numbers that read back as they are. Fails
+/// (kInput) also if the name of an image is empty, or begins or ends with a space, which the files can't say.
+Expected<void> write_colmap_model_txt(const std::filesystem::path& folder, const ColmapModel& model);
+
 }  // namespace quorum

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "engine/io/colmap_files.h"
+#include "engine/io/file.h"
 #include "engine/io/text.h"
 
 namespace quorum {
@@ -67,28 +69,86 @@ std::optional<std::string_view> next_record(LineReader& lines) {
   return line;
 }
 
-}  // namespace
-
-Expected<std::vector<ColmapCamera>> parse_colmap_cameras_txt(const fs::path& path, std::string_view text) {
-  std::vector<ColmapCamera> cameras;
+/// Parses a file record by record. parse makes one of the fields of its line.
+template <typename Record, typename Parse>
+Expected<std::vector<Record>> parse_records(const fs::path& path, std::string_view text, const Parse& parse) {
+  std::vector<Record> records;
   LineReader lines(text);
   while (const auto line = next_record(lines)) {
     Fields fields(path, lines.number(), *line);
-    ColmapCamera camera;
-    camera.id = fields.number<std::uint32_t>("CAMERA_ID");
-    const std::string_view model = fields.word("MODEL");
-    camera.width = fields.number<int>("WIDTH");
-    camera.height = fields.number<int>("HEIGHT");
-    for (const ColmapCameraModel& known : colmap_camera_models())
-      if (known.name == model) camera.model = &known;
-    if (camera.model == nullptr)
-      fields.fail(fmt::format("the camera model {} is not known; use image_undistorter", quote_token(model)));
-    for (std::size_t i = 0; camera.model != nullptr && i < camera.model->parameter_count(); ++i)
-      camera.parameters.push_back(fields.number<double>("a parameter"));
+    records.push_back(parse(fields));
     if (auto done = fields.done(); !done) return std::unexpected(done.error());
-    cameras.push_back(std::move(camera));
   }
-  return cameras;
+  return records;
+}
+
+ColmapCamera parse_camera(Fields& fields) {
+  ColmapCamera camera;
+  camera.id = fields.number<std::uint32_t>("CAMERA_ID");
+  const std::string_view model = fields.word("MODEL");
+  camera.width = fields.number<int>("WIDTH");
+  camera.height = fields.number<int>("HEIGHT");
+  for (const ColmapCameraModel& known : colmap_camera_models())
+    if (known.name == model) camera.model = &known;
+  if (camera.model == nullptr)
+    fields.fail(fmt::format("the camera model {} is not known; use image_undistorter", quote_token(model)));
+  for (std::size_t i = 0; camera.model != nullptr && i < camera.model->parameter_count(); ++i)
+    camera.parameters.push_back(fields.number<double>("a parameter"));
+  return camera;
+}
+
+ColmapImage parse_image(Fields& fields) {
+  ColmapImage image;
+  image.id = fields.number<std::uint32_t>("IMAGE_ID");
+  for (double& value : image.rotation) value = fields.number<double>("a quaternion's value");
+  for (int axis = 0; axis < 3; ++axis) image.translation(axis) = fields.number<double>("a translation's value");
+  image.camera_id = fields.number<std::uint32_t>("CAMERA_ID");
+  image.name = fields.rest();
+  if (image.name.empty()) fields.fail("NAME is missing");
+  return image;
+}
+
+/// The features of an image, those of a point.
+std::vector<ColmapObservation> parse_observations(Fields& fields) {
+  std::vector<ColmapObservation> observations;
+  while (fields.left() > 0) {
+    ColmapObservation observation;
+    observation.pixel.x() = fields.number<double>("X");
+    observation.pixel.y() = fields.number<double>("Y");
+    const auto point = fields.number<std::int64_t>("POINT3D_ID");
+    observation.point_id = static_cast<std::uint64_t>(point);
+    if (point >= 0) observations.push_back(observation);
+  }
+  return observations;
+}
+
+ColmapPoint parse_point(Fields& fields) {
+  ColmapPoint point;
+  point.id = fields.number<std::uint64_t>("POINT3D_ID");
+  for (int axis = 0; axis < 3; ++axis) point.position(axis) = fields.number<double>("a coordinate");
+  for (std::uint8_t& channel : point.color) channel = fields.number<std::uint8_t>("a color");
+  fields.number<double>("ERROR");
+  while (fields.left() > 0) {
+    point.image_ids.push_back(fields.number<std::uint32_t>("IMAGE_ID"));
+    fields.number<std::uint32_t>("POINT2D_IDX");
+  }
+  return point;
+}
+
+/// Numbers with spaces between, each in the shortest form that reads back as it is.
+template <typename Numbers>
+std::string spaced(const Numbers& numbers) {
+  return fmt::format("{}", fmt::join(numbers.begin(), numbers.end(), " "));
+}
+
+}  // namespace
+
+Expected<std::vector<ColmapCamera>> parse_colmap_cameras_txt(const fs::path& path, std::string_view text) {
+  return parse_records<ColmapCamera>(path, text, parse_camera);
+}
+
+Expected<std::vector<ColmapPoint>> parse_colmap_points_txt(const fs::path& path, std::string_view text) {
+  return parse_records<ColmapPoint>(path, text, parse_point);
 }
 
 Expected<std::vector<ColmapImage>> parse_colmap_images_txt(const fs::path& path, std::string_view text) {
@@ -96,50 +156,46 @@ Expected<std::vector<ColmapImage>> parse_colmap_images_txt(const fs::path& path,
   LineReader lines(text);
   while (const auto line = next_record(lines)) {
     Fields fields(path, lines.number(), *line);
-    ColmapImage image;
-    image.id = fields.number<std::uint32_t>("IMAGE_ID");
-    for (double& value : image.rotation) value = fields.number<double>("a quaternion's value");
-    for (int axis = 0; axis < 3; ++axis) image.translation(axis) = fields.number<double>("a translation's value");
-    image.camera_id = fields.number<std::uint32_t>("CAMERA_ID");
-    image.name = fields.rest();
-    if (image.name.empty()) fields.fail("NAME is missing");
+    images.push_back(parse_image(fields));
     if (auto done = fields.done(); !done) return std::unexpected(done.error());
-
     const auto second = lines.next();  // blank if the image has no features
     Fields features(path, lines.number(), second.value_or(""));
     if (!second) features.fail("the line with the features of the image is missing");
-    while (features.left() > 0) {
-      ColmapObservation observation;
-      observation.pixel.x() = features.number<double>("X");
-      observation.pixel.y() = features.number<double>("Y");
-      const auto point = features.number<std::int64_t>("POINT3D_ID");
-      observation.point_id = static_cast<std::uint64_t>(point);
-      if (point >= 0) image.observations.push_back(observation);
-    }
+    images.back().observations = parse_observations(features);
     if (auto done = features.done(); !done) return std::unexpected(done.error());
-    images.push_back(std::move(image));
   }
   return images;
 }
 
-Expected<std::vector<ColmapPoint>> parse_colmap_points_txt(const fs::path& path, std::string_view text) {
-  std::vector<ColmapPoint> points;
-  LineReader lines(text);
-  while (const auto line = next_record(lines)) {
-    Fields fields(path, lines.number(), *line);
-    ColmapPoint point;
-    point.id = fields.number<std::uint64_t>("POINT3D_ID");
-    for (int axis = 0; axis < 3; ++axis) point.position(axis) = fields.number<double>("a coordinate");
-    for (std::uint8_t& channel : point.color) channel = fields.number<std::uint8_t>("a color");
-    fields.number<double>("ERROR");
-    while (fields.left() > 0) {
-      point.image_ids.push_back(fields.number<std::uint32_t>("IMAGE_ID"));
-      fields.number<std::uint32_t>("POINT2D_IDX");
+Expected<void> write_colmap_model_txt(const fs::path& folder, const ColmapModel& model) {
+  std::string cameras = "# CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]\n";
+  for (const ColmapCamera& camera : model.cameras)
+    cameras += fmt::format("{} {} {} {} {}\n", camera.id, camera.model->name, camera.width, camera.height,
+                           spaced(camera.parameters));
+  std::string images = "# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then POINTS2D[] as X Y POINT3D_ID\n";
+  std::unordered_map<std::uint64_t, std::string> tracks;
+  for (const ColmapImage& image : model.images) {
+    if (image.name.empty() || kTextSpace.contains(image.name.front()) || kTextSpace.contains(image.name.back()))
+      return failure(ErrorKind::kInput, fmt::format("image {}: a model in text can't say its name {}; rename it",
+                                                    image.id, quote_token(image.name)));
+    images += fmt::format("{} {} {} {} {}\n", image.id, spaced(image.rotation), spaced(image.translation),
+                          image.camera_id, image.name);
+    int place = 0;
+    const char* separator = "";
+    for (const ColmapObservation& seen : image.observations) {
+      images += fmt::format("{}{} {}", separator, spaced(seen.pixel), seen.point_id);
+      tracks[seen.point_id] += fmt::format(" {} {}", image.id, place++);
+      separator = " ";
     }
-    if (auto done = fields.done(); !done) return std::unexpected(done.error());
-    points.push_back(std::move(point));
+    images += "\n";
   }
-  return points;
+  std::string points = "# POINT3D_ID X Y Z R G B ERROR TRACK[] as IMAGE_ID POINT2D_IDX\n";
+  for (const ColmapPoint& point : model.points)
+    points += fmt::format("{} {} {} 0{}\n", point.id, spaced(point.position), spaced(point.color), tracks[point.id]);
+  for (const auto& [name, text] :
+       {std::pair{"cameras.txt", &cameras}, {"images.txt", &images}, {"points3D.txt", &points}})
+    if (auto written = write_file(folder / name, *text); !written) return written;
+  return {};
 }
 
 }  // namespace quorum

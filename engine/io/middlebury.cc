@@ -22,10 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBoundsRemedy = "give them with --bounds \"x0 y0 z0 x1 y1 z1\"";
 
-std::unexpected<Error> path_failure(const fs::path& path, std::string_view message) {
-  return failure(ErrorKind::kInput, fmt::format("{}: {}", path.string(), message));
-}
-
 std::string format_point(const Eigen::Vector3d& point) {
   return fmt::format("({:.17g} {:.17g} {:.17g})", point.x(), point.y(), point.z());
 }

@@ -4,13 +4,16 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "engine/io/file.h"
 #include "engine/io/text.h"
 #include "engine/io/view_list.h"
 #include "engine/io/word_reader.h"
+#include "engine/scene/select_views.h"
 
 namespace quorum {
 namespace {
@@ -18,10 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kCameraEnding = "_cam.txt";
-
-std::unexpected<Error> path_failure(const fs::path& path, std::string_view message) {
-  return failure(ErrorKind::kInput, fmt::format("{}: {}", path.string(), message));
-}
+constexpr double kUsualDepths = 192;
 
 struct MvsnetCamera {
   Camera camera;
@@ -30,7 +30,6 @@ struct MvsnetCamera {
 };
 
 Expected<MvsnetCamera> parse_camera(const fs::path& path, std::string_view text) {
-  constexpr double kUsualDepths = 192;
   WordReader words(path, text);
   MvsnetCamera result;
   words.expect("extrinsic");
@@ -107,7 +106,60 @@ Expected<void> read_pairs(const fs::path& path, const std::map<int, int>& view_o
   return words.done();
 }
 
+/// The depth range of a view, or that of the bounds.
+Expected<std::pair<double, double>> depth_range(const View& view, const Bounds& bounds) {
+  if (view.far_depth > 0) return std::pair(view.near_depth, view.far_depth);
+  double near = std::numeric_limits<double>::infinity();
+  double far = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const double depth = view.camera.to_camera(bounds.corner(corner)).z();
+    near = std::min(near, depth);
+    far = std::max(far, depth);
+  }
+  if (far <= 0)
+    return failure(ErrorKind::kInput, fmt::format("{}: the bounds lie behind this camera; check --roi", view.name));
+  return std::pair(std::max(near, 1e-3 * far), far);
+}
+
+std::string camera_text(const Camera& camera, double near, double far) {
+  const Eigen::Matrix3d& r = camera.camera_from_world;
+  const Eigen::Matrix3d& k = camera.intrinsics;
+  std::string text = "extrinsic\n";
+  for (int row = 0; row < 3; ++row)
+    text += fmt::format("{} {} {} {}\n", r(row, 0), r(row, 1), r(row, 2), camera.translation(row));
+  return text + fmt::format("0 0 0 1\n\nintrinsic\n{} 0 {}\n0 {} {}\n0 0 1\n\n{} {} {} {}\n", k(0, 0), k(0, 2) + 0.5,
+                            k(1, 1), k(1, 2) + 0.5, near, (far - near) / (kUsualDepths - 1), kUsualDepths, far);
+}
+
+std::string pair_text(const Scene& scene) {
+  SelectViewsOptions options;
+  options.neighbor_count = 10;
+  std::string text = fmt::format("{}\n", scene.views.size());
+  for (int view = 0; view < static_cast<int>(scene.views.size()); ++view) {
+    const std::vector<int> neighbors = select_views(scene, view, options);
+    text += fmt::format("{}\n{}", view, neighbors.size());
+    int score = options.neighbor_count;
+    for (const int neighbor : neighbors) text += fmt::format(" {} {}", neighbor, score--);
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
+
+std::string mvsnet_name(std::size_t number) { return fmt::format("{:08}", number); }
+
+Expected<void> write_mvsnet(const fs::path& folder, const Scene& scene) {
+  if (auto made = make_folder(folder / "cams"); !made) return made;
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    const auto range = depth_range(scene.views[i], scene.bounds);
+    if (!range) return std::unexpected(range.error());
+    const std::string text = camera_text(scene.views[i].camera, range->first, range->second);
+    const fs::path path = folder / "cams" / (mvsnet_name(i) + std::string(kCameraEnding));
+    if (auto written = write_file(path, text); !written) return written;
+  }
+  return write_file(folder / "pair.txt", pair_text(scene));
+}
 
 Expected<Scene> read_mvsnet(const fs::path& folder, const fs::path& images) {
   const auto cameras = list_cameras(folder / "cams");

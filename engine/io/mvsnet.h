@@ -1,7 +1,9 @@
 // Scenes in the layout of MVSNet (Yao, Luo, Li, Fang, Quan 2018): cams/00000000_cam.txt, images/00000000.jpg, pair.txt.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
 
 #include "engine/core/error.h"
 #include "engine/scene/scene.h"
@@ -16,5 +18,14 @@ namespace quorum {
 /// bounds are left empty. Fails (kInput), naming file and line, if a file is absent or malformed, a number in pair.txt
 /// has no camera, or there are fewer than three views.
 Expected<Scene> read_mvsnet(const std::filesystem::path& folder, const std::filesystem::path& images);
+
+/// What files of the view of a number are called: eight digits.
+std::string mvsnet_name(std::size_t number);
+
+/// Writes cams and pair.txt of a scene whose images stand in folder/images under their numbers. The depth range is the
+/// view's, with 192 depths, or that of the bounds; the neighbors are the first ten of select_views, with scores that
+/// fall from ten. Numbers are the shortest that read back as they are. Fails (kInput) if the bounds lie behind a view
+/// without a depth range, or a file can't be written.
+Expected<void> write_mvsnet(const std::filesystem::path& folder, const Scene& scene);
 
 }  // namespace quorum

@@ -25,10 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::unexpected<Error> path_failure(const fs::path& path, std::string_view message) {
-  return failure(ErrorKind::kInput, fmt::format("{}: {}", path.string(), message));
-}
-
 bool holds_file_that_ends_with(const fs::path& folder, std::string_view ending) {
   std::error_code code;
   for (fs::directory_iterator entry(folder, code); !code && entry != fs::directory_iterator(); entry.increment(code))

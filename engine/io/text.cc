@@ -45,6 +45,10 @@ bool has_control_characters(std::string_view text) {
   return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < ' '; });
 }
 
+std::unexpected<Error> path_failure(const std::filesystem::path& path, std::string_view message) {
+  return failure(ErrorKind::kInput, fmt::format("{}: {}", path.string(), message));
+}
+
 std::unexpected<Error> failure_at_line(const std::filesystem::path& path, int line, std::string_view message) {
   return failure(ErrorKind::kInput, fmt::format("{}:{}: {}", path.string(), line, message));
 }

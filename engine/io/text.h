@@ -54,6 +54,9 @@ std::string quote_token(std::string_view token);
 /// True if a text can't be shown on one line, as no sane name of a file is.
 bool has_control_characters(std::string_view text);
 
+/// Failure (kInput) "path: message".
+std::unexpected<Error> path_failure(const std::filesystem::path& path, std::string_view message);
+
 /// Failure (kInput) "path:line: message".
 std::unexpected<Error> failure_at_line(const std::filesystem::path& path, int line, std::string_view message);
 

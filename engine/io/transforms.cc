@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/camera/pose.h"
 #include "engine/io/file.h"
 #include "engine/io/image_size.h"
 #include "engine/io/text.h"
@@ -66,7 +67,7 @@ std::optional<Camera> pose_of(const Json& frame) {
   world_from_camera.col(2) *= -1.0;
   Camera camera;
   camera.camera_from_world = world_from_camera.transpose();
-  camera.translation = -(camera.camera_from_world * center);
+  camera.translation = translation_of_center(camera.camera_from_world, center);
   return camera;
 }
 
@@ -137,6 +138,25 @@ Expected<Scene> read_transforms(const fs::path& folder, const fs::path& images) 
   auto finished = views.finish();
   if (!finished) return std::unexpected(finished.error().within(path.string()));
   return Scene{std::move(*finished), {}};
+}
+
+Expected<void> write_transforms(const fs::path& folder, const std::vector<View>& views,
+                                const std::vector<std::string>& names, const std::vector<Eigen::Vector3d>& centers) {
+  std::string frames;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Eigen::Matrix3d& r = views[i].camera.camera_from_world;
+    const Eigen::Matrix3d& k = views[i].camera.intrinsics;
+    frames += fmt::format(
+        "{}{{\"file_path\": {}, \"w\": {}, \"h\": {}, \"fl_x\": {}, \"fl_y\": {}, \"cx\": {}, \"cy\": {},\n",
+        i == 0 ? "" : ",\n", Json("images/" + names[i]).dump(), views[i].width, views[i].height, k(0, 0), k(1, 1),
+        k(0, 2) + 0.5, k(1, 2) + 0.5);
+    frames += "  \"transform_matrix\": [";
+    for (int row = 0; row < 3; ++row)
+      frames += fmt::format("[{}, {}, {}, {}], ", r(0, row), -r(1, row), -r(2, row), centers[i](row));
+    frames += "[0, 0, 0, 1]]}";
+  }
+  return write_file(folder / "transforms.json",
+                    fmt::format("{{\"camera_model\": \"PINHOLE\", \"frames\": [\n{}]}}\n", frames));
 }
 
 }  // namespace quorum

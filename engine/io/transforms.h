@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/scene/scene.h"
@@ -15,5 +17,11 @@ namespace quorum {
 /// the top-left pixel is (0.5, 0.5). Views in the order of their names. The bounds are left empty. Fails (kInput) if
 /// the file is no JSON, a value is absent or of another kind, or as ViewList does; the message names the frame.
 Expected<Scene> read_transforms(const std::filesystem::path& folder, const std::filesystem::path& images);
+
+/// Writes folder/transforms.json of views whose pictures have these names in folder/images. centers: of projection;
+/// they stand in the file in place of the translations, which come back as translation_of_center. Numbers are the
+/// shortest that read back as they are. Fails (kInput) if the file can't be written.
+Expected<void> write_transforms(const std::filesystem::path& folder, const std::vector<View>& views,
+                                const std::vector<std::string>& names, const std::vector<Eigen::Vector3d>& centers);
 
 }  // namespace quorum

@@ -13,15 +13,12 @@
 #include <memory>
 
 #include "engine/core/check.h"
+#include "engine/mesh/shading.h"
 
 namespace quorum {
 namespace {
 
 using EmbreeScene = std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)>;
-using Color = Eigen::Vector3f;  ///< red, green, blue, 0..255
-
-constexpr float kBackground = 255;  ///< in each channel
-constexpr float kSurface = 240;     ///< in each channel, where it is fully lit
 
 /// A triangle where a ray meets it, in camera axes.
 struct Hit {
@@ -107,42 +104,6 @@ Hit describe_hit(const Mesh& mesh, const ToTree& to_tree, const RTCRayHit& ray) 
   return hit;
 }
 
-Color lit_surface(const Eigen::Vector3f& normal, const Eigen::Vector3f& to_camera) {
-  const Eigen::Vector3f to_side_light = Eigen::Vector3f(-0.7F, -0.6F, -0.4F).normalized();
-  constexpr float kAmbient = 0.15F;
-  constexpr float kCamera = 0.55F;
-  constexpr float kSide = 0.3F;
-  return Color::Constant(kSurface * (kAmbient + kCamera * std::max(0.0F, normal.dot(to_camera)) +
-                                     kSide * std::max(0.0F, normal.dot(to_side_light))));
-}
-
-Color vertex_color(const Vertex& vertex) {
-  return {static_cast<float>(red_of(vertex.color)), static_cast<float>(green_of(vertex.color)),
-          static_cast<float>(blue_of(vertex.color))};
-}
-
-/// share: 0 dark red, 0.5 orange, 1 yellow; each channel rises or stays.
-Color confidence_color(float share) {
-  const float s = std::clamp(share, 0.0F, 1.0F);
-  return {70 + 185 * std::min(1.0F, 2 * s), 225 * s, 20 + 60 * s};
-}
-
-Color shade(const Hit& hit, const Eigen::Vector3f& to_camera, const RenderOptions& options) {
-  switch (options.shading) {
-    case RenderOptions::Shading::kColor:
-      return hit.blend(vertex_color);
-    case RenderOptions::Shading::kConfidence:
-      return confidence_color(hit.blend([](const Vertex& v) { return v.confidence; }) / options.full_confidence);
-    case RenderOptions::Shading::kNormal:
-      return (Color(hit.normal.x(), -hit.normal.y(), -hit.normal.z()).array() + 1.0F) * 127.5F;
-    case RenderOptions::Shading::kShaded:
-      break;
-  }
-  return lit_surface(hit.normal, to_camera);
-}
-
-Color tint_back(const Color& color) { return color.cwiseProduct(Color(0.45F, 0.6F, 1.0F)); }
-
 /// Color seen along a direction from the center of projection. direction: camera axes, unit length.
 Color trace(RTCScene scene, const Mesh& mesh, const ToTree& to_tree, const Eigen::Vector3f& direction,
             const RenderOptions& options) {
@@ -156,24 +117,11 @@ Color trace(RTCScene scene, const Mesh& mesh, const ToTree& to_tree, const Eigen
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene, &context, &ray);
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Color::Constant(kBackground);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kBackground;
   const Hit hit = describe_hit(mesh, to_tree, ray);
-  const Color color = shade(hit, -direction, options);
-  return hit.is_back ? tint_back(color) : color;
-}
-
-Rgba to_pixel(const Color& color) {
-  // max comes first: it turns a value that is no number, from a file's normals say, into 0.
-  const auto byte = [](float value) {
-    return static_cast<std::uint32_t>(std::min(255.0F, std::max(0.0F, value + 0.5F)));
-  };
-  return make_rgb(byte(color[0]), byte(color[1]), byte(color[2]));
-}
-
-float highest_confidence(const Mesh& mesh) {
-  float highest = 0;
-  for (const Vertex& vertex : mesh.vertices) highest = std::max(highest, vertex.confidence);
-  return highest > 0 ? highest : 1;
+  return shade(
+      {hit.blend(vertex_color), hit.blend([](const Vertex& v) { return v.confidence; }), hit.normal, hit.is_back},
+      -direction, options);
 }
 
 }  // namespace
@@ -190,11 +138,10 @@ Expected<ColorImage> render_mesh(const Mesh& mesh, const Camera& camera, int wid
   QUORUM_CHECK_GE(width, 0);
   QUORUM_CHECK_GE(height, 0);
   if (auto checked = options.check(); !checked) return std::unexpected(checked.error());
-  ColorImage image(width, height, to_pixel(Color::Constant(kBackground)));
+  ColorImage image(width, height, to_pixel(kBackground));
   if (mesh.triangles.empty()) return image;
 
-  RenderOptions settled = options;
-  if (settled.full_confidence == 0) settled.full_confidence = highest_confidence(mesh);
+  const RenderOptions settled = settle(options, mesh);
   const ToTree to_tree{camera, scale_to_unit(mesh, camera)};
   const auto scene = build_scene(mesh, to_tree);
   if (!scene) return std::unexpected(scene.error());

@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/io/colmap.h"
 #include "engine/io/colmap_map.h"
-#include "engine/io/colmap_model.h"
 #include "engine/io/file.h"
-#include "engine/io/image_file.h"
-#include "engine/io/image_store.h"
+#include "engine/io/scene_pictures.h"
+#include "engine/pipeline/memory_budget.h"
 #include "engine/volume/depth_normals.h"
 
 namespace quorum {
@@ -19,38 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const View& view_at(const Scene& scene, int index) { return scene.views[static_cast<std::size_t>(index)]; }
-
-/// Whether photographs have to be written anew.
-bool undistorts(const Scene& scene) {
-  return std::ranges::any_of(scene.views, [](const View& view) { return view.lens || view.halvings > 0; });
-}
-
-/// Names of the images in the workspace. New files are named after the view.
-std::vector<std::string> image_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const View& view : scene.views) names.push_back(undistorts(scene) ? view.name + ".png" : view.image_name);
-  return names;
-}
-
-Expected<void> write_images(const fs::path& folder, const Scene& scene, const std::vector<std::string>& names) {
-  ImageStore images(scene, 0);
-  for (std::size_t index = 0; index < names.size(); ++index) {
-    const fs::path path = folder / names[index];
-    if (auto made = make_folder(path.parent_path()); !made) return made;
-    Expected<void> written;
-    if (undistorts(scene)) {
-      const auto image = images.image(static_cast<int>(index));
-      if (!image) return std::unexpected(image.error());
-      written = write_png(path, **image);
-    } else {
-      const auto bytes = read_file(scene.views[index].image_path);
-      if (!bytes) return std::unexpected(bytes.error());
-      written = write_file(path, *bytes);
-    }
-    if (!written) return written;
-  }
-  return {};
-}
 
 /// Views that have a depth map and those that each is compared with.
 struct Reference {
@@ -101,32 +68,6 @@ Expected<void> add_points(const Scene& scene, const Workspace& workspace, const 
   return {};
 }
 
-ColmapModel make_model(const Scene& scene, const std::vector<std::string>& names,
-                       const std::vector<SparsePoint>& points) {
-  constexpr int kPinhole = 1;
-  const auto models = colmap_camera_models();
-  const auto pinhole = std::ranges::find(models, kPinhole, &ColmapCameraModel::id);
-  ColmapModel model;
-  for (std::uint32_t index = 0; index < scene.views.size(); ++index) {
-    const View& view = scene.views[index];
-    const Eigen::Matrix3d& k = view.camera.intrinsics;
-    model.cameras.push_back(
-        {index + 1, &*pinhole, view.width, view.height, {k(0, 0), k(1, 1), k(0, 2) + 0.5, k(1, 2) + 0.5}});
-    const Eigen::Quaterniond q(view.camera.camera_from_world);
-    model.images.push_back(
-        {index + 1, {q.w(), q.x(), q.y(), q.z()}, view.camera.translation, index + 1, names[index], {}});
-  }
-  std::uint64_t id = 0;
-  for (const SparsePoint& point : points) {
-    model.points.push_back({++id, point.position, {128, 128, 128}, {}});
-    for (const int view : point.views) {
-      const Eigen::Vector3d pixel = view_at(scene, view).camera.project(point.position);
-      model.images[static_cast<std::size_t>(view)].observations.push_back({pixel.head<2>().array() + 0.5, id});
-    }
-  }
-  return model;
-}
-
 Expected<void> write_lists(const fs::path& stereo, const std::vector<std::string>& names,
                            const std::vector<Reference>& references) {
   std::string pairs;
@@ -146,6 +87,31 @@ Expected<void> write_lists(const fs::path& stereo, const std::vector<std::string
   return write_file(stereo / "fusion.cfg", fused);
 }
 
+/// What is held at most: the maps of a view and of one neighbor with its normals and a file's bytes, a photograph, and
+/// the model's points, in memory and as bytes.
+std::uint64_t workspace_bytes(const Scene& scene, const std::vector<Reference>& references) {
+  constexpr std::uint64_t kPixelBytes = 12 + 12 + 12 + 12;
+  constexpr std::uint64_t kPhotographBytes = 16;
+  constexpr std::uint64_t kPointBytes = 200;
+  constexpr std::uint64_t kSightingBytes = 100;
+  const auto area = [](int width, int height) {
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  };
+  std::uint64_t pixels = 0;
+  std::uint64_t photograph = 0;
+  for (const View& view : scene.views) {
+    pixels = std::max(pixels, area(view.width, view.height));
+    photograph = std::max(photograph, area(view.photo_width, view.photo_height));
+  }
+  std::uint64_t points = 0;
+  for (const SparsePoint& point : scene.points) points += kPointBytes + kSightingBytes * point.views.size();
+  if (scene.points.empty())  // one for every 64 pixels of a depth map, as add_points makes them
+    for (const Reference& reference : references)
+      points += area(view_at(scene, reference.view).width, view_at(scene, reference.view).height) / 64 *
+                (kPointBytes + kSightingBytes * (1 + reference.neighbors.size()));
+  return kPixelBytes * pixels + kPhotographBytes * std::max(pixels, photograph) + points;
+}
+
 }  // namespace
 
 Expected<void> write_colmap_workspace(const fs::path& folder, const Scene& scene, const ReconstructOptions& options,
@@ -158,9 +124,11 @@ Expected<void> write_colmap_workspace(const fs::path& folder, const Scene& scene
   if (references.empty())
     return failure(ErrorKind::kInput, fmt::format("{}: holds no depth map of this scene; run `quorum depth` first",
                                                   (workspace.folder() / "depth").string()));
+  const MemoryBudget budget(options.memory_bytes);
+  if (auto fits = budget.require(workspace_bytes(scene, references), "writing for COLMAP"); !fits) return fits;
   for (const char* name : {"images", "sparse", "stereo/depth_maps", "stereo/normal_maps", "stereo/consistency_graphs"})
     if (auto made = make_folder(folder / name); !made) return made;
-  const std::vector<std::string> names = image_names(scene);
+  const std::vector<std::string> names = picture_names(scene);
   progress.stage("writing for COLMAP", static_cast<int>(references.size()));
   std::vector<SparsePoint> points = scene.points;
   for (const Reference& reference : references) {
@@ -179,8 +147,9 @@ Expected<void> write_colmap_workspace(const fs::path& folder, const Scene& scene
       return written;
     progress.step();
   }
-  if (auto written = write_images(folder / "images", scene, names); !written) return written;
-  if (auto written = write_colmap_model(folder / "sparse", make_model(scene, names, points)); !written) return written;
+  if (auto written = write_pictures(folder / "images", scene, names); !written) return written;
+  if (auto written = write_colmap_model(folder / "sparse", colmap_model_of(scene.views, names, points)); !written)
+    return written;
   return write_lists(folder / "stereo", names, references);
 }
 

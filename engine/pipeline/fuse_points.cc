@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/io/image_store.h"
+#include "engine/pipeline/memory_budget.h"
 #include "engine/volume/depth_normals.h"
 
 namespace quorum {
@@ -64,6 +65,38 @@ std::optional<Sighting> find_agreeing(FusedView& other, const FusedView& referen
   return Sighting{&other, u, v};
 }
 
+/// What a view takes at most beside its cloud: maps of it and its neighbors, one of them as a file's bytes, normals,
+/// the photograph; and the cloud's growth, if each pixel made a point.
+std::uint64_t view_bytes(const Scene& scene, int reference, const std::vector<int>& neighbors, const Mesh& cloud) {
+  constexpr std::uint64_t kMapBytes = 12;
+  constexpr std::uint64_t kViewBytes = 4 + 12 + 8;
+  constexpr std::uint64_t kDistortedBytes = 12;
+  const auto area = [](int width, int height) {
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  };
+  const View& view = scene.views[static_cast<std::size_t>(reference)];
+  const std::uint64_t pixels = area(view.width, view.height);
+  std::uint64_t bytes = (kMapBytes + kViewBytes) * pixels + kDistortedBytes * area(view.photo_width, view.photo_height);
+  for (const int neighbor : neighbors) {
+    const View& other = scene.views[static_cast<std::size_t>(neighbor)];
+    bytes += kMapBytes * area(other.width, other.height);
+  }
+  const std::uint64_t points = cloud.vertices.size() + pixels;
+  if (points > cloud.vertices.capacity()) bytes += std::max(2 * cloud.vertices.size(), points) * sizeof(Vertex);
+  return bytes;
+}
+
+/// Drops the points of least confidence: chance agreements where there is no texture.
+void drop_doubtful(Mesh& cloud) {
+  constexpr float kLeastShare = 0.25F;  // of the median
+  std::vector<float> confidences;
+  for (const Vertex& vertex : cloud.vertices) confidences.push_back(vertex.confidence);
+  if (confidences.empty()) return;
+  const auto middle = confidences.begin() + static_cast<std::ptrdiff_t>(confidences.size() / 2);
+  std::ranges::nth_element(confidences, middle);
+  std::erase_if(cloud.vertices, [least = kLeastShare * *middle](const Vertex& v) { return v.confidence < least; });
+}
+
 /// Adds the points that a view begins.
 void add_points(FusedView& reference, std::vector<FusedView>& neighbors, const ColorImage& image, Mesh& cloud) {
   const Grid<Eigen::Vector3f> normals = depth_normals(reference.map.depth, reference.view.camera);
@@ -113,14 +146,18 @@ Expected<Mesh> fuse_points(const Scene& scene, const ReconstructOptions& options
     bits.resize(map->depth.values.size());
     return FusedView{view, std::move(*map), bits};
   };
+  const MemoryBudget budget(options.memory_bytes);
   ImageStore images(scene, 0);
   Mesh cloud;
   for (const int index : references) {
     if (progress.stop_requested()) return failure(ErrorKind::kStopped, "stopped as asked; finished files are kept");
+    const std::vector<int> selected = select_views(scene, index, options.views);
+    if (auto fits = budget.require(view_bytes(scene, index, selected, cloud), "fusing points"); !fits)
+      return std::unexpected(fits.error());
     auto reference = load(index);
     if (!reference) return std::unexpected(reference.error());
     std::vector<FusedView> neighbors;
-    for (const int neighbor : select_views(scene, index, options.views)) {
+    for (const int neighbor : selected) {
       if (!has_map(neighbor)) continue;
       auto loaded = load(neighbor);
       if (!loaded) return std::unexpected(loaded.error());
@@ -131,6 +168,10 @@ Expected<Mesh> fuse_points(const Scene& scene, const ReconstructOptions& options
     add_points(*reference, neighbors, **image, cloud);
     progress.step();
   }
+  drop_doubtful(cloud);
+  constexpr std::uint64_t kFileBytes = 35;  // a point in a PLY file, whose bytes are held as a whole
+  if (auto fits = budget.require(kFileBytes * cloud.vertices.size(), "writing the cloud"); !fits)
+    return std::unexpected(fits.error());
   return cloud;
 }
 

@@ -38,6 +38,22 @@ class BackendsParity : public ParityTest {
     return input;
   }
 
+  /// A scene whose images have three sizes.
+  static Input make_mixed_input(unsigned seed) {
+    Input input{make_sphere_scene(5, 97, 71, true, seed), {}, {}};
+    for (const auto& [index, width, height] : {std::tuple{1U, 80, 61}, {2U, 64, 49}, {4U, 80, 61}}) {
+      SphereScene other = make_sphere_scene(5, width, height, true, seed);
+      input.sphere.scene.views[index] = other.scene.views[index];
+      input.sphere.images[index] = std::move(other.images[index]);
+    }
+    CpuBackend cpu;
+    for (int index = 0; index < 5; ++index) {
+      input.images.push_back(pad_image(input.sphere.images[static_cast<std::size_t>(index)]));
+      input.maps.push_back(cpu.sweep_depth(make_sphere_task(input.sphere, index, {})).value());
+    }
+    return input;
+  }
+
   /// All views through one backend, integrated in the given order.
   static BlockPool fuse(Backend& backend, const Input& input, const FusionOptions& options,
                         const std::vector<std::size_t>& order) {
@@ -56,6 +72,38 @@ class BackendsParity : public ParityTest {
     return backend.read_blocks().value();
   }
 };
+
+TEST_F(BackendsParity, ImagesOfDifferentSizesGiveEqualDepthMapsAndVolumes) {
+  const Input input = make_mixed_input(8);
+  const std::array backends = {vulkan(SweepForm::kGroups), vulkan(SweepForm::kLanes)};
+  CpuBackend cpu;
+  for (const WindowModel model : {WindowModel::kSlanted, WindowModel::kPlane}) {
+    SweepOptions options;
+    options.window_model = model;
+    for (const int reference : {0, 1, 2}) {
+      const SweepTask task = make_sphere_task(input.sphere, reference, options);
+      const DepthMap twin = cpu.sweep_depth(task).value();
+      const int width = input.sphere.scene.views[static_cast<std::size_t>(reference)].width;
+      ASSERT_EQ(twin.depth.width, width);
+      ASSERT_GT(std::ranges::count_if(twin.depth.values, [](float depth) { return depth > 0; }), 500);
+      for (std::size_t i = 0; i < backends.size(); ++i) {
+        const DepthMap on_device = backends[i]->sweep_depth(task).value();
+        const std::string what = fmt::format("{} view {} form {}", window_model_name(model), reference, i);
+        ASSERT_TRUE(same_words(on_device.depth.values, twin.depth.values, width, what + " depth"));
+        ASSERT_TRUE(same_words(on_device.correlation.values, twin.correlation.values, width, what + " correlation"));
+        ASSERT_TRUE(same_words(on_device.confidence.values, twin.confidence.values, width, what + " confidence"));
+      }
+    }
+  }
+  FusionOptions fusion;
+  fusion.voxel_size = 0.05;
+  const std::vector<std::size_t> order = {0, 1, 2, 3, 4};
+  const BlockPool twin = fuse(cpu, input, fusion, order);
+  const BlockPool on_device = fuse(*backends[0], input, fusion, order);
+  ASSERT_GT(twin.indices.size(), 100U);
+  EXPECT_EQ(on_device.indices, twin.indices);
+  ASSERT_TRUE(same_words(on_device.voxels, twin.voxels, kBlockVoxels, "(voxel, slot)"));
+}
 
 TEST_F(BackendsParity, DepthMapsAreEqualInEveryForm) {
   const std::array backends = {vulkan(SweepForm::kGroups), vulkan(SweepForm::kLanes), vulkan()};

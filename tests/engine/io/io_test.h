@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <random>
 #include <string>
 #include <string_view>
@@ -25,13 +27,13 @@ void expect_bad_input(const Expected<T>& result, std::initializer_list<std::stri
 }
 
 /// The text with one to four changes by chance: a byte replaced, inserted or removed, a digit replaced, the end cut
-/// off, or a piece doubled.
+/// off, a piece doubled, a word replaced by an extreme number, or one to eight bytes by the extremes of binary ones.
 inline std::string mutate(std::string text, std::uint32_t seed) {
   std::mt19937 random(seed);
   const auto below = [&random](std::size_t limit) { return random() % limit; };
   for (std::size_t changes = 1 + below(4); changes > 0 && !text.empty(); --changes) {
     const std::size_t at = below(text.size());
-    switch (below(6)) {
+    switch (below(8)) {
       case 0:
         text[at] = static_cast<char>(below(256));
         break;
@@ -48,6 +50,18 @@ inline std::string mutate(std::string text, std::uint32_t seed) {
       }
       case 4:
         text.resize(at);
+        break;
+      case 5: {
+        constexpr const char* kExtremes[] = {"0",      "-1",    "nan",        "inf",        "1e308",
+                                             "1e-320", "-1e40", "2147483648", "4294967295", "18446744073709551615"};
+        const std::size_t begin = std::min(text.find_first_of(" \n,", at), text.size() - 1) + 1;
+        const std::size_t end = std::min(text.find_first_of(" \n,", begin), text.size());
+        text.replace(begin, end - begin, kExtremes[below(std::size(kExtremes))]);
+        break;
+      }
+      case 6:
+        for (std::size_t i = at, end = std::min(at + 1 + below(8), text.size()); i < end; ++i)
+          text[i] = "\x00\x01\x7f\x80\xff"[below(5)];
         break;
       default:
         text.insert(at, text.substr(below(text.size()), below(40)));

@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-#include <chrono>
-#include <cstdlib>
-
 #include "engine/io/colmap.h"
 #include "engine/io/file.h"
 #include "engine/io/image_file.h"
 #include "engine/io/ply.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/colmap_scene.h"
+#include "tests/support/scene_formats.h"
 #include "tests/support/test_support.h"
 
 namespace quorum {
@@ -23,77 +20,8 @@ namespace fs = std::filesystem;
 /// A COLMAP scene, and the same cameras in the other formats, each in a folder of its own.
 class SceneFolderTest : public testing::Test {
  protected:
-  SceneFolderTest() {
-    write_colmap_scene(path("colmap"), model_);
-    scene_ = read_colmap(path("colmap"), {}).value();
-    for (const char* folder : {"mvsnet", "transforms", "bundler"}) {
-      fs::create_directories(path(folder));
-      fs::copy(path("colmap/images"), path(folder) / "images");
-    }
-    write_mvsnet();
-    write_transforms();
-    write_bundle();
-  }
-
   [[nodiscard]] fs::path path(const std::string& name) const { return folder_.path() / name; }
   Expected<Scene> read(const std::string& folder) { return read_scene(path(folder), SceneOptions{}); }
-
-  void write_mvsnet() {
-    fs::create_directories(path("mvsnet/cams"));
-    for (std::size_t i = 0; i < scene_.views.size(); ++i) {
-      const Camera& camera = scene_.views[i].camera;
-      std::string text = "extrinsic\n";
-      for (int row = 0; row < 3; ++row)
-        text +=
-            fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}\n", camera.camera_from_world(row, 0),
-                        camera.camera_from_world(row, 1), camera.camera_from_world(row, 2), camera.translation(row));
-      text += fmt::format("0 0 0 1\n\nintrinsic\n{:.17g} 0 {:.17g}\n0 {:.17g} {:.17g}\n0 0 1\n\n2.5 0.05\n",
-                          camera.intrinsics(0, 0), camera.intrinsics(0, 2) + 0.5, camera.intrinsics(1, 1),
-                          camera.intrinsics(1, 2) + 0.5);
-      write_text(path(fmt::format("mvsnet/cams/{:08}_cam.txt", i)), text);
-      fs::rename(path("mvsnet/images") / scene_.views[i].image_name, path(fmt::format("mvsnet/images/{:08}.png", i)));
-    }
-    write_text(path("mvsnet/pair.txt"), "4\n0\n3 2 9.5 1 8 3 1\n1\n2 0 5 2 4\n2\n1 3 1\n3\n0\n");
-  }
-
-  void write_transforms() {
-    std::string frames;
-    for (const View& view : scene_.views) {
-      const Eigen::Matrix3d r = view.camera.camera_from_world.transpose();
-      const Eigen::Vector3d c = view.camera.center();
-      std::string rows;
-      for (int row = 0; row < 3; ++row)
-        rows += fmt::format("[{:.17g}, {:.17g}, {:.17g}, {:.17g}], ", r(row, 0), -r(row, 1), -r(row, 2), c(row));
-      frames += fmt::format(
-          "{}{{\"file_path\": \"./images/{}\", \"transform_matrix\": [{}[0, 0, 0, 1]], \"cx\": {:.17g}, \"w\": {}}}",
-          frames.empty() ? "" : ",\n", view.image_name, rows, view.camera.intrinsics(0, 2) + 0.5, view.width);
-    }
-    const Eigen::Matrix3d& k = scene_.views[0].camera.intrinsics;
-    write_text(path("transforms/transforms.json"),
-               fmt::format("{{\"fl_x\": {}, \"fl_y\": {}, \"cy\": {}, \"h\": 48, \"frames\": [\n{}]}}\n", k(0, 0),
-                           k(1, 1), k(1, 2) + 0.5, frames));
-  }
-
-  /// With focal length 70, the principal point in the center, and a camera that was not found.
-  void write_bundle() {
-    std::string list;
-    std::string bundle = "# Bundle file v0.3\n5 3\n0 0 0\n0 0 0\n0 0 0\n0 0 0\n0 0 0\n";
-    for (const View& view : scene_.views) {
-      const Camera& camera = view.camera;
-      bundle += "70 -0.1 0.02\n";
-      for (int row = 0; row < 3; ++row) {
-        const double sign = row == 0 ? 1 : -1;
-        bundle += fmt::format("{:.17g} {:.17g} {:.17g}\n", sign * camera.camera_from_world(row, 0),
-                              sign * camera.camera_from_world(row, 1), sign * camera.camera_from_world(row, 2));
-      }
-      bundle += fmt::format("{:.17g} {:.17g} {:.17g}\n", camera.translation.x(), -camera.translation.y(),
-                            -camera.translation.z());
-      list += "images/" + view.image_name + " 0 70\n";
-    }
-    bundle += "0.1 0.2 0.3\n1 2 3\n3 1 5 0.5 0.5 4 7 1 1 2 3 0 0\n0 0 0\n1 2 3\n2 0 1 1 1 3 2 2 2\n1 1 1\n0 0 0\n0\n";
-    write_text(path("bundler/bundle.out"), bundle);
-    write_text(path("bundler/list.txt"), "images/lost.png\n" + list);
-  }
 
   void change(const std::string& file, const std::string& from, const std::string& to) {
     std::string text = read_file(path(file)).value();
@@ -104,7 +32,7 @@ class SceneFolderTest : public testing::Test {
 
   TemporaryFolder folder_;
   ColmapModel model_ = make_colmap_model("PINHOLE");
-  Scene scene_;
+  Scene scene_ = write_scene_formats(folder_.path(), model_);
 };
 
 using SceneFolder = SceneFolderTest;
@@ -293,42 +221,6 @@ TEST_F(SceneFolder, WrongFilesAreNamed) {
   expect_bad_input(read("bundler"), {"list.txt", "names 1 images"});
   write_text(path("bundler/bundle.out"), "# v0.3\n");
   expect_bad_input(read("bundler"), {"# Bundle file"});
-}
-
-/// A mutated scene is read or refused on one line, without a crash. QUORUM_FUZZ_SECONDS: how long to go on, per file.
-TEST_F(SceneFolder, DamagedFilesNeverCrash) {
-  fs::create_directories(path("colmap/stereo"));
-  write_text(path("colmap/stereo/patch-match.cfg"), "a.png\nc.png, b.png\nb.png\n__auto__, 20\nc.png\n__all__\n");
-  write_colmap_scene(path("text"), make_colmap_model("OPENCV"));
-  for (const char* file : {"cameras.bin", "images.bin", "points3D.bin"}) fs::remove(path("text/sparse") / file);
-  write_colmap_text(path("text/sparse"), make_colmap_model("OPENCV"));
-  const char* wanted = std::getenv("QUORUM_FUZZ_SECONDS");
-  const double seconds = wanted != nullptr ? std::atof(wanted) : 0.0;
-  const std::pair<const char*, const char*> kFiles[] = {
-      {"colmap", "sparse/cameras.bin"},    {"colmap", "sparse/images.bin"}, {"colmap", "sparse/points3D.bin"},
-      {"text", "sparse/cameras.txt"},      {"text", "sparse/images.txt"},   {"text", "sparse/points3D.txt"},
-      {"mvsnet", "cams/00000001_cam.txt"}, {"mvsnet", "pair.txt"},          {"transforms", "transforms.json"},
-      {"bundler", "bundle.out"},           {"bundler", "list.txt"},         {"colmap", "stereo/patch-match.cfg"}};
-  for (const auto& [folder, file] : kFiles) {
-    const fs::path target = path(folder) / file;
-    const std::string good = read_file(target).value();
-    int refused = 0;
-    const auto start = std::chrono::steady_clock::now();
-    const auto elapsed = [&] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
-    for (std::uint32_t seed = 0; seed < 60 || elapsed() < seconds; ++seed) {
-      fs::remove(target);
-      write_text(target, mutate(good, seed));
-      const auto scene = read(folder);
-      if (scene) continue;
-      ++refused;
-      EXPECT_EQ(scene.error().message.find('\n'), std::string::npos) << file << " seed " << seed;
-      EXPECT_EQ(scene.error().kind, ErrorKind::kInput) << file << " seed " << seed << scene.error().message;
-    }
-    EXPECT_GT(refused, 0) << file;
-    write_text(target, good);
-  }
 }
 
 }  // namespace

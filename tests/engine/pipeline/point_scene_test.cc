@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "engine/io/colmap.h"
+#include "engine/io/convert_scene.h"
 #include "engine/io/file.h"
 #include "engine/io/image_file.h"
 #include "engine/io/ply.h"
@@ -157,6 +158,84 @@ TEST(PointScene, ColmapWorkspaceReadsAsTheSameScene) {
     EXPECT_LT(z, -0.9F) << "the middle of the sphere looks at the camera";
   }
   EXPECT_EQ(read_file(folder / "stereo/fusion.cfg").value(), "0.png\n1.png\n2.png\n3.png\n4.png\n");
+}
+
+TEST(PointScene, CloudAndWorkspaceKeepTheBudget) {
+  Result run(1.0);
+  Progress progress;
+  run.options.memory_bytes = 1 << 20;  // less than the process holds already
+  const auto cloud = fuse_points(run.scene, run.options, run.workspace, progress);
+  ASSERT_FALSE(cloud);
+  EXPECT_EQ(cloud.error().kind, ErrorKind::kMemory);
+  EXPECT_TRUE(cloud.error().message.starts_with("fusing points needs ")) << cloud.error().message;
+  const auto written =
+      write_colmap_workspace(run.workspace.colmap_path(), run.scene, run.options, run.workspace, progress);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().kind, ErrorKind::kMemory);
+  EXPECT_TRUE(written.error().message.starts_with("writing for COLMAP needs ")) << written.error().message;
+  EXPECT_FALSE(std::filesystem::exists(run.workspace.colmap_path()));
+}
+
+/// The cameras of a scene, and its depth maps in a given box, of neighbors by angle.
+std::vector<DepthMap> depth_maps_of(const Scene& scene, const std::filesystem::path& output) {
+  ReconstructOptions options;
+  options.views.rule = ViewRule::kAngle;
+  const Workspace workspace = Workspace::open(output).value();
+  CpuBackend cpu({SimdLevel::kBaseline, 64, 16});
+  Progress progress;
+  RunReport report;
+  compute_depth_maps(scene, options, cpu, workspace, progress, report).value();
+  std::vector<DepthMap> maps;
+  for (const View& view : scene.views)
+    maps.push_back(workspace.load_depth_map(view.name, view.width, view.height).value());
+  return maps;
+}
+
+TEST(PointScene, AllFormatsGiveTheSameDepthMapsToTheLastBit) {
+  const TemporaryFolder folder;
+  write_sphere(folder.path() / "source", 1.0);
+  const Scene source = read_scene(folder.path() / "source", {}).value();
+  std::vector<Scene> scenes;
+  for (const auto& [name, format] : {std::pair{"colmap", ConvertedFormat::kColmap},
+                                     {"text", ConvertedFormat::kColmapText},
+                                     {"mvsnet", ConvertedFormat::kMvsnet},
+                                     {"transforms", ConvertedFormat::kTransforms}}) {
+    std::filesystem::create_directories(folder.path() / name);
+    const auto converted = convert_scene(folder.path() / name, source, format);
+    ASSERT_TRUE(converted) << converted.error().message;
+    SceneOptions options;
+    options.roi = folder.path() / name / "bounds.txt";
+    scenes.push_back(read_scene(folder.path() / name, options).value());
+  }
+  EXPECT_EQ(scenes[1].points.size(), source.points.size());
+  EXPECT_EQ(scenes[0].points[9].position, source.points[9].position);
+  EXPECT_EQ(scenes[1].points[9].views, source.points[9].views);
+  for (int view = 0; view < 5; ++view)
+    EXPECT_EQ(select_views(scenes[2], view, {}), select_views(scenes[0], view, {})) << "pair.txt by points";
+
+  const std::vector<DepthMap> expected = depth_maps_of(scenes[0], folder.path() / "out0");
+  ASSERT_GT(std::ranges::count_if(expected[2].depth.values, [](float depth) { return depth > 0; }), 1000);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    EXPECT_EQ(scenes[i].bounds.low, source.bounds.low);
+    EXPECT_EQ(scenes[i].bounds.high, source.bounds.high);
+    ASSERT_EQ(scenes[i].views.size(), 5U);
+    for (std::size_t view = 0; view < 5; ++view) {
+      const Camera& camera = scenes[i].views[view].camera;
+      EXPECT_EQ(camera.intrinsics, scenes[0].views[view].camera.intrinsics) << i;
+      EXPECT_EQ(camera.camera_from_world, scenes[0].views[view].camera.camera_from_world) << i;
+      EXPECT_EQ(camera.translation, scenes[0].views[view].camera.translation) << i;
+      EXPECT_EQ(camera.intrinsics, source.views[view].camera.intrinsics);
+      EXPECT_LT((camera.camera_from_world - source.views[view].camera.camera_from_world).cwiseAbs().maxCoeff(), 2e-15);
+      EXPECT_LT((camera.translation - source.views[view].camera.translation).norm(), 1e-14);
+      EXPECT_EQ(read_file(scenes[i].views[view].image_path).value(), read_file(source.views[view].image_path).value());
+    }
+    const std::vector<DepthMap> maps = depth_maps_of(scenes[i], folder.path() / ("out" + std::to_string(i)));
+    for (std::size_t view = 0; view < 5; ++view) {
+      EXPECT_EQ(maps[view].depth.values, expected[view].depth.values) << i << " view " << view;
+      EXPECT_EQ(maps[view].correlation.values, expected[view].correlation.values) << i << " view " << view;
+      EXPECT_EQ(maps[view].confidence.values, expected[view].confidence.values) << i << " view " << view;
+    }
+  }
 }
 
 TEST(PointScene, WorkspaceOfASceneWithoutPointsGetsSome) {
