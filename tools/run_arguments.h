@@ -26,6 +26,7 @@ struct RunArguments {
   std::vector<int> tile = {64, 16};
   std::string window_model = "slanted";
   bool no_slant = false;
+  bool no_confirm = false;
   std::string depth_step = "auto";
   std::string voxel_size = "auto";
   std::string truncation = "auto";

@@ -41,6 +41,7 @@ Json json_of(const ReconstructOptions& options) {
           {"max_slope_deg", options.fusion.max_slope_deg},
           {"feather", options.fusion.feather},
           {"weights", weights_json(options.fusion)},
+          {"confirm", options.confirm},
           {"min_confidence", options.automatic_confidence ? Json("auto") : Json(options.clean.min_confidence)},
           {"min_component", options.clean.min_component_triangles},
           {"largest_component", options.clean.largest_component}};
