@@ -90,7 +90,7 @@ float certainty_of(int support) {
   constexpr int kLeast = kConfirmingViews * kSupportOfLookingThrough;
   constexpr int kMost = kConfirmingViews * 2 * kSupportOfAgreement;
   // In 1/256.
-  constexpr std::array<int, kMost - kLeast + 1> kCertainty = {8, 13, 20, 31, 44, 61, 90, 128, 161, 177, 192, 205, 218, 225, 232, 237, 241, 244, 246, 248, 249, 250, 251, 252, 253, 253, 254, 254, 255, 255, 256};
+  constexpr std::array<int, kMost - kLeast + 1> kCertainty = {9, 17, 26, 38, 66, 76, 76, 129, 142, 163, 169, 199, 203, 221, 221, 237, 237, 248, 248, 248, 248, 252, 252, 252, 252, 254, 254, 254, 254, 254, 255};
   constexpr float kUnit = 0.00390625F;
   QUORUM_CHECK_GE(support, kLeast);
   QUORUM_CHECK_LE(support, kMost);
