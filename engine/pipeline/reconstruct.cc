@@ -201,8 +201,7 @@ Expected<void> fuse_depth_maps(const Scene& scene, const ReconstructOptions& opt
   const MemoryBudget budget(options.memory_bytes);
   report.memory_budget_bytes = budget.bytes();
   ImageStore images(scene, 0, 0.0);  // a slab takes each photograph once, and the memory is better spent on large slabs
-  auto extracted =
-      fuse_views(
+  auto extracted = fuse_views(
       {scene, views, *grid, options.fusion, workspace, budget, backend, images, progress, report, options.confirm});
   if (!extracted) return std::unexpected(extracted.error());
   Mesh mesh = std::move(*extracted);
@@ -210,7 +209,10 @@ Expected<void> fuse_depth_maps(const Scene& scene, const ReconstructOptions& opt
   {
     const StageTimer timer(report, "clean");
     CleanOptions rules = options.clean;
-    if (options.automatic_confidence) rules.min_confidence = automatic_min_confidence(mesh);
+    constexpr float kConfirmed = 0.035F;  // docs/quality.md; without confirmation the default
+    if (options.automatic_confidence)
+      rules.min_confidence =
+          options.confirm ? automatic_min_confidence(mesh, kConfirmed) : automatic_min_confidence(mesh);
     report.min_confidence = rules.min_confidence;
     mesh = clean(mesh, rules);
   }
