@@ -28,7 +28,7 @@ TEST(Calibration, DepthsAreRightWithinAFootprintOfTheTruth) {
   const Workspace workspace = Workspace::open(folder.path()).value();
   Scene scene;
   View& view = scene.views.emplace_back();
-  view.name = "a";
+  view.name = std::string("wall");
   view.width = view.height = 30;
   view.camera.intrinsics << 100, 0, 15, 0, 100, 15, 0, 0, 1;
   DepthMap map;
@@ -41,13 +41,13 @@ TEST(Calibration, DepthsAreRightWithinAFootprintOfTheTruth) {
     }
   }
   Mesh wall;
-  for (const auto& [x, y] : {std::pair{-9.0F, -9.0F}, {9.0F, -9.0F}, {-9.0F, 9.0F}, {9.0F, 9.0F}})
-    wall.vertices.push_back({{x, y, 2.0F}, {}, {}, 1.0F});
+  for (const float y : {-9.0F, 9.0F})
+    for (const float x : {-9.0F, 9.0F}) wall.vertices.emplace_back().position = {x, y, 2.0F};
   wall.triangles = {{0, 1, 2}, {1, 3, 2}};
   EXPECT_FALSE(calibrate(scene, workspace, wall)) << "there is no depth map";
-  workspace.save_depth_map("a", map).value();
+  workspace.save_depth_map(view.name, map).value();
   EXPECT_FALSE(calibrate(scene, workspace, wall)) << "there is no certainty";
-  workspace.save_certainty("a", certainty).value();
+  workspace.save_certainty(view.name, certainty).value();
 
   const auto result = calibrate(scene, workspace, wall);
   ASSERT_TRUE(result) << result.error().message;
