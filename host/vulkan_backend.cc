@@ -17,9 +17,8 @@ Expected<std::unique_ptr<VulkanBackend>> VulkanBackend::create(const Device& dev
   if (!confirm) return std::unexpected(confirm.error());
   auto volume = VolumeStage::create(*kept_device, *kept_commands);
   if (!volume) return std::unexpected(volume.error());
-  return std::unique_ptr<VulkanBackend>(
-      new VulkanBackend(std::move(kept_device), std::move(kept_commands), std::move(*depth), std::move(*confirm),
-                        std::move(*volume)));
+  return std::unique_ptr<VulkanBackend>(new VulkanBackend(std::move(kept_device), std::move(kept_commands),
+                                                          std::move(*depth), std::move(*confirm), std::move(*volume)));
 }
 
 std::string VulkanBackend::description() const {

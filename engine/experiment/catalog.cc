@@ -243,8 +243,8 @@ ReconstructOptions default_options(const std::string& scene) {
   ReconstructOptions options;
   const ExperimentScene& source = find_scene(paper_scenes(), scene);
   options.mask_below = source.temple ? 0.0 : source.background_level;
-  // The experiments are about the paper's method, whose windows don't tilt and whose depths are not confirmed. What both
-  // bring: docs/quality.md.
+  // The experiments are about the paper's method, whose windows don't tilt and whose depths are not confirmed. What
+  // both bring: docs/quality.md.
   options.sweep.window_model = WindowModel::kPlane;
   options.confirm = false;
   return options;

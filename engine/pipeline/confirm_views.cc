@@ -85,8 +85,8 @@ Expected<void> confirm_views(const Scene& scene, const std::vector<int>& views, 
     }
     if (!certainty) return std::unexpected(certainty.error().within(name));
     if (auto saved = writing.get(); !saved) return saved;
-    writing = writer.run(
-        [&workspace, &name, map = std::move(*certainty)] { return workspace.save_certainty(name, map); });
+    writing =
+        writer.run([&workspace, &name, map = std::move(*certainty)] { return workspace.save_certainty(name, map); });
     progress.step();
   }
   if (auto saved = writing.get(); !saved) return saved;

@@ -1,10 +1,11 @@
-// Geometric confirmation: what other views' depth maps say of the depths of a view. Twin of shaders/confirm_depths.comp.
+// Geometric confirmation: what other views' depth maps say of the depths of a view. Twin of
+// shaders/confirm_depths.comp.
 //
 // Each depth is a point in space. Another view supports it if the surface of its own depth map passes there, and speaks
-// against it if it looks through the point at something behind. A view that sees something in front of the point, or has
-// no depth there, says nothing. How often depths of a given support were right on scenes with known surface gives the
-// certainty: docs/quality.md. The idea is old; see P. Merrell et al., Real-Time Visibility-Based Fusion of Depth Maps,
-// ICCV 2007.
+// against it if it looks through the point at something behind. A view that sees something in front of the point, or
+// has no depth there, says nothing. How often depths of a given support were right on scenes with known surface gives
+// the certainty: docs/quality.md. The idea is old; see P. Merrell et al., Real-Time Visibility-Based Fusion of Depth
+// Maps, ICCV 2007.
 #pragma once
 
 #include <vector>
@@ -35,8 +36,8 @@ struct ConfirmTask {
 
 ConfirmDepthsParams make_confirm_depths_params(const ConfirmTask& task, std::size_t other);
 
-/// Adds to the support of each depth of a view what one other view says: kSupportOfAgreement if its depth at the point's
-/// projection lies within kAgreement footprints of a pixel, as much again if within kCloseAgreement, and
+/// Adds to the support of each depth of a view what one other view says: kSupportOfAgreement if its depth at the
+/// point's projection lies within kAgreement footprints of a pixel, as much again if within kCloseAgreement, and
 /// kSupportOfLookingThrough if it lies more than kLooksThrough behind. The other depth is interpolated where its cell
 /// has no step, and that of the nearest pixel elsewhere. 0 where the view has no depth. support: of the view's size.
 void confirm_depths(const Grid<float>& depth, const Grid<float>& other, const ConfirmDepthsParams& params,
