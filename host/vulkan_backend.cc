@@ -13,10 +13,12 @@ Expected<std::unique_ptr<VulkanBackend>> VulkanBackend::create(const Device& dev
   auto kept_commands = std::make_unique<Commands>(std::move(*commands));
   auto depth = DepthStage::create(*kept_device, *kept_commands, form);
   if (!depth) return std::unexpected(depth.error());
+  auto confirm = ConfirmStage::create(*kept_device, *kept_commands);
+  if (!confirm) return std::unexpected(confirm.error());
   auto volume = VolumeStage::create(*kept_device, *kept_commands);
   if (!volume) return std::unexpected(volume.error());
-  return std::unique_ptr<VulkanBackend>(
-      new VulkanBackend(std::move(kept_device), std::move(kept_commands), std::move(*depth), std::move(*volume)));
+  return std::unique_ptr<VulkanBackend>(new VulkanBackend(std::move(kept_device), std::move(kept_commands),
+                                                          std::move(*depth), std::move(*confirm), std::move(*volume)));
 }
 
 std::string VulkanBackend::description() const {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "engine/pipeline/backend.h"
+#include "host/confirm_stage.h"
 #include "host/depth_stage.h"
 #include "host/device_rates.h"
 #include "host/volume_stage.h"
@@ -18,6 +19,7 @@ class VulkanBackend : public Backend {
 
   [[nodiscard]] std::string description() const override;
   Expected<DepthMap> sweep_depth(const SweepTask& task) override { return depth_.run(task); }
+  Expected<Grid<float>> confirm_depths(const ConfirmTask& task) override { return confirm_.run(task); }
   Expected<void> begin_volume(const VoxelGrid& grid, const FusionOptions& options) override {
     volume_.begin(grid, options);
     return {};
@@ -42,15 +44,17 @@ class VulkanBackend : public Backend {
   [[nodiscard]] bool shares_memory() const;
 
   VulkanBackend(std::unique_ptr<Device> device, std::unique_ptr<Commands> commands, DepthStage depth,
-                VolumeStage volume)
+                ConfirmStage confirm, VolumeStage volume)
       : device_(std::move(device)),
         commands_(std::move(commands)),
         depth_(std::move(depth)),
+        confirm_(std::move(confirm)),
         volume_(std::move(volume)) {}
 
   std::unique_ptr<Device> device_;
   std::unique_ptr<Commands> commands_;
   DepthStage depth_;
+  ConfirmStage confirm_;
   VolumeStage volume_;
 };
 

@@ -49,6 +49,15 @@ const uint kCellFirstTriangle = 1u;   // 0-1-2, or 1-3-0
 const uint kCellSecondTriangle = 2u;  // 3-2-1, or 2-0-3
 const uint kCellSplitAlong03 = 4u;
 
+// How far another view's depth may lie from a point that it confirms, in footprints of one of its pixels there: close
+// agreement counts twice. Where it lies further behind than kLooksThrough, the view looks through the point.
+const float kCloseAgreement = 0.5f;
+const float kAgreement = 1.0f;
+const float kLooksThrough = 2.0f;
+// What each of these adds to a depth's support.
+const int kSupportOfAgreement = 2;
+const int kSupportOfLookingThrough = -1;
+
 // Factors of a vertex's weight, as bits.
 const uint kWeighConfidence = 1u;
 const uint kWeighSlant = 2u;
@@ -207,6 +216,19 @@ struct RefinePlanesParams {
   float confidence_scale;
 };
 QUORUM_SIZE(RefinePlanesParams, 44);
+
+// confirm_depths: what one other view's depth map says of the depths of a view.
+struct ConfirmDepthsParams {
+  PlaneWarp warp;        // to the other view
+  int width;
+  int height;
+  int other_width;       // pixels
+  int other_height;      // pixels
+  float other_max_step;  // as in RangeSurfaceParams
+  float footprint;       // of one of the other view's pixels, as a share of the depth there
+  int is_first;          // 1: of the other views; sums start anew
+};
+QUORUM_SIZE(ConfirmDepthsParams, 76);
 
 // range_surface: the triangles of one depth map.
 struct RangeSurfaceParams {

@@ -16,6 +16,7 @@ int photos_command(int argc, char** argv);
 int depth_command(int argc, char** argv);
 int fuse_command(int argc, char** argv);
 int evaluate_command(int argc, char** argv);
+int calibrate_command(int argc, char** argv);
 int render_command(int argc, char** argv);
 int convert_command(int argc, char** argv);
 int synthesize_command(int argc, char** argv);

@@ -20,6 +20,7 @@ constexpr Command kCommands[] = {
     {"depth", "the depth maps alone", quorum::depth_command},
     {"fuse", "the mesh from depth maps computed before", quorum::fuse_command},
     {"evaluate", "accuracy and completeness of a mesh against the truth", quorum::evaluate_command},
+    {"calibrate", "how far the confidences of depth maps can be trusted, against the truth", quorum::calibrate_command},
     {"render", "a picture of a mesh from one of the scene's cameras", quorum::render_command},
     {"convert", "a scene in the format of other programs", quorum::convert_command},
     {"synthesize", "make a scene with known surface to try things on", quorum::synthesize_command},

@@ -78,6 +78,7 @@ Expected<void> resolve(RunArguments& arguments) {
   if (arguments.no_slant && options.sweep.window_model == WindowModel::kSlanted)
     options.sweep.window_model = WindowModel::kPlane;
   options.fusion.signed_distance = arguments.signed_distance == "ray" ? SignedDistance::kRay : SignedDistance::kNormal;
+  options.confirm = !arguments.no_confirm;
   options.views.rule = arguments.view_rule == "points"  ? ViewRule::kPoints
                        : arguments.view_rule == "angle" ? ViewRule::kAngle
                                                         : ViewRule::kAutomatic;
@@ -226,6 +227,9 @@ void RunArguments::add_fusion_options(CLI::App& app) {
       ->delimiter(',')
       ->check(CLI::IsMember({"confidence", "slant", "border", "none"}))
       ->capture_default_str()
+      ->group(group);
+  app.add_flag("--no-confirm", no_confirm,
+               "The paper's confidence alone: depths don't gain or lose by what other views' depth maps say")
       ->group(group);
   app.add_option("--min-confidence", min_confidence,
                  "Drop triangles of less; 1 is one view that is fully confident; 0 keeps all")

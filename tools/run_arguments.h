@@ -27,6 +27,7 @@ struct RunArguments {
   std::string window_model = "slanted";
   std::string signed_distance = "normal";
   bool no_slant = false;
+  bool no_confirm = false;
   std::string depth_step = "auto";
   std::string voxel_size = "auto";
   std::string truncation = "auto";

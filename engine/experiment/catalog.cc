@@ -244,10 +244,11 @@ ReconstructOptions default_options(const std::string& scene) {
   const ExperimentScene& source = find_scene(paper_scenes(), scene);
   options.mask_below = source.temple ? 0.0 : source.background_level;
   // The experiments are about the paper's method, whose windows don't tilt and whose distances lie along the line of
-  // sight, with weights that suit its depth maps. What goes beyond: docs/quality.md.
+  // sight, with weights that suit its depth maps, which are not confirmed. What goes beyond: docs/quality.md.
   options.sweep.window_model = WindowModel::kPlane;
   options.fusion.signed_distance = SignedDistance::kRay;
   options.fusion.feather = 4;
+  options.confirm = false;
   return options;
 }
 

@@ -78,8 +78,7 @@ Expected<void> CleanOptions::check() const {
   return {};
 }
 
-float automatic_min_confidence(const Mesh& mesh) {
-  constexpr float kMost = 0.045F;
+float automatic_min_confidence(const Mesh& mesh, float most) {
   constexpr float kShareOfMedian = 0.125F;
   if (mesh.vertices.empty()) return 0.0F;
   std::vector<float> confidences;
@@ -87,7 +86,7 @@ float automatic_min_confidence(const Mesh& mesh) {
   for (const Vertex& vertex : mesh.vertices) confidences.push_back(vertex.confidence);
   const auto middle = confidences.begin() + static_cast<std::ptrdiff_t>(confidences.size() / 2);
   std::nth_element(confidences.begin(), middle, confidences.end());
-  return std::min(kMost, kShareOfMedian * *middle);
+  return std::min(most, kShareOfMedian * *middle);
 }
 
 Mesh clean(const Mesh& mesh, const CleanOptions& options, CleanCounts* counts) {

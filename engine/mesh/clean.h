@@ -17,10 +17,10 @@ struct CleanOptions {
   [[nodiscard]] Expected<void> check() const;
 };
 
-/// The least confidence that a vertex needs when the user names none: 0.045, or an eighth of the median over the mesh
+/// The least confidence that a vertex needs when the user names none: most, or an eighth of the median over the mesh
 /// where that is lower, so that scenes in which every surface is seen by few views keep theirs. 0 for an empty mesh.
 /// Chosen by measurement: docs/measurements/fusion_defaults.md.
-float automatic_min_confidence(const Mesh& mesh);
+float automatic_min_confidence(const Mesh& mesh, float most = 0.045F);
 
 /// What was dropped, each item under the first rule that it failed.
 struct CleanCounts {

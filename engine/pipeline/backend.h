@@ -9,6 +9,7 @@
 #include "engine/depth/depth_map.h"
 #include "engine/depth/sweep_task.h"
 #include "engine/image/padded_image.h"
+#include "engine/volume/confirm_depths.h"
 #include "engine/volume/fusion_options.h"
 #include "engine/volume/voxel_grid.h"
 
@@ -55,6 +56,9 @@ class Backend {
 
   /// Depth, correlation and confidence of one reference view (the paper, 2.1).
   virtual Expected<DepthMap> sweep_depth(const SweepTask& task) = 0;
+
+  /// The certainty of a view's depths, from other views' depth maps.
+  virtual Expected<Grid<float>> confirm_depths(const ConfirmTask& task) = 0;
 
   // A volume (the paper, 2.2): begin it, collect the blocks of every view, allocate them all, integrate every view into
   // its blocks, read them. Or, slab by slab: allocate some, integrate, read, and then the next. Views may come in any

@@ -65,6 +65,10 @@ Expected<DepthMap> CpuBackend::sweep_depth(const SweepTask& task) {
   return map;
 }
 
+Expected<Grid<float>> CpuBackend::confirm_depths(const ConfirmTask& task) {
+  return timed("confirm_depths", [&] { return quorum::confirm_depths(task); });
+}
+
 Expected<void> CpuBackend::begin_volume(const VoxelGrid& grid, const FusionOptions& options) {
   grid_ = grid;
   fusion_ = options;

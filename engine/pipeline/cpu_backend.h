@@ -12,6 +12,7 @@ class CpuBackend : public Backend {
 
   [[nodiscard]] std::string description() const override;
   Expected<DepthMap> sweep_depth(const SweepTask& task) override;
+  Expected<Grid<float>> confirm_depths(const ConfirmTask& task) override;
   Expected<void> begin_volume(const VoxelGrid& grid, const FusionOptions& options) override;
   Expected<std::vector<std::uint32_t>> collect_blocks(const FusionView& view) override;
   Expected<void> allocate_blocks(std::vector<std::uint32_t> indices) override;

@@ -142,6 +142,11 @@ Expected<Mesh> fuse_points(const Scene& scene, const ReconstructOptions& options
     const View& view = scene.views[static_cast<std::size_t>(index)];
     auto map = workspace.load_depth_map(view.name, view.width, view.height);
     if (!map) return std::unexpected(map.error());
+    if (options.confirm) {
+      auto certainty = workspace.load_certainty(view.name, view.width, view.height);
+      if (!certainty) return std::unexpected(certainty.error());
+      map->confidence = std::move(*certainty);
+    }
     std::vector<bool>& bits = used[static_cast<std::size_t>(index)];
     bits.resize(map->depth.values.size());
     return FusedView{view, std::move(*map), bits};

@@ -51,6 +51,11 @@ Expected<void> for_each_view(const FusionInput& input, const std::vector<std::si
       const View& view = input.scene.views[static_cast<std::size_t>(index)];
       auto map = input.workspace.load_depth_map(view.name, view.width, view.height);
       if (!map) return std::unexpected(map.error());
+      if (input.confirmed) {
+        auto certainty = input.workspace.load_certainty(view.name, view.width, view.height);
+        if (!certainty) return std::unexpected(certainty.error());
+        map->confidence = std::move(*certainty);
+      }
       if (!with_image) return LoadedView{std::move(*map), {}};
       const auto image = input.images.image(index);
       if (!image) return std::unexpected(image.error());

@@ -27,6 +27,7 @@ struct FusionInput {
   ImageStore& images;
   Progress& progress;
   RunReport& report;
+  bool confirmed = false;  ///< weigh by the certainty of depths, which the workspace holds, in place of conf(d)
 };
 
 /// The surface that the views agree on, before cleaning; the same mesh for any budget. Fails (kInput) if a file does

@@ -10,6 +10,7 @@
 #include "engine/io/image_store.h"
 #include "engine/io/ply.h"
 #include "engine/pipeline/background_thread.h"
+#include "engine/pipeline/confirm_views.h"
 #include "engine/pipeline/fuse_views.h"
 
 namespace quorum {
@@ -191,18 +192,27 @@ Expected<void> fuse_depth_maps(const Scene& scene, const ReconstructOptions& opt
   report.voxel_size = grid->voxel_size;
   report.truncation = grid->truncation;
 
+  if (options.confirm) {
+    if (auto confirmed = confirm_views(scene, views, options, backend, workspace, progress, report); !confirmed)
+      return confirmed;
+  } else {
+    for (const int view : views) workspace.remove_certainty(view_at(scene, view).name);
+  }
   const MemoryBudget budget(options.memory_bytes);
   report.memory_budget_bytes = budget.bytes();
   ImageStore images(scene, 0, 0.0);  // a slab takes each photograph once, and the memory is better spent on large slabs
-  auto extracted =
-      fuse_views({scene, views, *grid, options.fusion, workspace, budget, backend, images, progress, report});
+  auto extracted = fuse_views(
+      {scene, views, *grid, options.fusion, workspace, budget, backend, images, progress, report, options.confirm});
   if (!extracted) return std::unexpected(extracted.error());
   Mesh mesh = std::move(*extracted);
   report.extracted_triangles = mesh.triangles.size();
   {
     const StageTimer timer(report, "clean");
     CleanOptions rules = options.clean;
-    if (options.automatic_confidence) rules.min_confidence = automatic_min_confidence(mesh);
+    constexpr float kConfirmed = 0.035F;  // docs/quality.md; without confirmation the default
+    if (options.automatic_confidence)
+      rules.min_confidence =
+          options.confirm ? automatic_min_confidence(mesh, kConfirmed) : automatic_min_confidence(mesh);
     report.min_confidence = rules.min_confidence;
     mesh = clean(mesh, rules);
   }

@@ -19,6 +19,7 @@ struct ReconstructOptions {
   SweepOptions sweep;
   FusionOptions fusion;
   CleanOptions clean;
+  bool confirm = true;               ///< weigh depths by what other views' depth maps make of them, not by conf(d)
   bool automatic_confidence = true;  ///< clean.min_confidence from the mesh itself
   double mask_below = 0.0;           ///< level of the dark-background mask, 0..1; 0 = none (paper 4.6)
   std::uint64_t memory_bytes = 0;    ///< that the process may hold; 0 = automatic (MemoryBudget)

@@ -43,6 +43,7 @@ Json json_of(const ReconstructOptions& options) {
           {"feather", options.fusion.feather},
           {"signed_distance", options.fusion.signed_distance == SignedDistance::kNormal ? "normal" : "ray"},
           {"weights", weights_json(options.fusion)},
+          {"confirm", options.confirm},
           {"min_confidence", options.automatic_confidence ? Json("auto") : Json(options.clean.min_confidence)},
           {"min_component", options.clean.min_component_triangles},
           {"largest_component", options.clean.largest_component}};

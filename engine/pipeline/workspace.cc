@@ -37,16 +37,21 @@ Expected<void> Workspace::save_depth_map(const std::string& view, const DepthMap
   return write_pfm(map_path(view, "depth", "pfm"), map.depth);
 }
 
+Expected<Grid<float>> Workspace::load_map(const std::string& view, const char* map, int width, int height) const {
+  const auto path = map_path(view, map, "pfm");
+  auto loaded = read_pfm(path);
+  if (loaded && (loaded->width != width || loaded->height != height))
+    return failure(ErrorKind::kInput,
+                   fmt::format("{}: is {} x {}, but the view is {} x {}; run `quorum depth` on this scene again",
+                               path.string(), loaded->width, loaded->height, width, height));
+  return loaded;
+}
+
 Expected<DepthMap> Workspace::load_depth_map(const std::string& view, int width, int height) const {
   DepthMap map;
   const auto load = [&](const char* name, Grid<float>& grid) -> Expected<void> {
-    const auto path = map_path(view, name, "pfm");
-    auto loaded = read_pfm(path);
+    auto loaded = load_map(view, name, width, height);
     if (!loaded) return std::unexpected(loaded.error());
-    if (loaded->width != width || loaded->height != height)
-      return failure(ErrorKind::kInput,
-                     fmt::format("{}: is {} x {}, but the view is {} x {}; run `quorum depth` on this scene again",
-                                 path.string(), loaded->width, loaded->height, width, height));
     grid = std::move(*loaded);
     return {};
   };
@@ -56,8 +61,27 @@ Expected<DepthMap> Workspace::load_depth_map(const std::string& view, int width,
   return map;
 }
 
+Expected<Grid<float>> Workspace::load_depth(const std::string& view, int width, int height) const {
+  return load_map(view, "depth", width, height);
+}
+
+Expected<void> Workspace::save_certainty(const std::string& view, const Grid<float>& certainty) const {
+  if (auto drawn = write_png(map_path(view, "certainty", "png"), color_map_unit(certainty)); !drawn) return drawn;
+  return write_pfm(map_path(view, "certainty", "pfm"), certainty);
+}
+
+Expected<Grid<float>> Workspace::load_certainty(const std::string& view, int width, int height) const {
+  return load_map(view, "certainty", width, height);
+}
+
+void Workspace::remove_certainty(const std::string& view) const {
+  std::error_code ignored;
+  for (const char* kind : {"pfm", "png"}) std::filesystem::remove(map_path(view, "certainty", kind), ignored);
+}
+
 void Workspace::remove_depth_map(const std::string& view) const {
   std::error_code ignored;
+  remove_certainty(view);
   for (const char* map : {"depth", "correlation", "confidence"})
     for (const char* kind : {"pfm", "png"}) std::filesystem::remove(map_path(view, map, kind), ignored);
 }

@@ -11,7 +11,8 @@ namespace quorum {
 
 /// Files under one folder; every file appears whole or not at all.
 ///   depth/NAME.depth.pfm .correlation.pfm .confidence.pfm   float maps
-///   depth/NAME.depth.png .correlation.png .confidence.png   previews
+///   depth/NAME.certainty.pfm                                what other views' depth maps make of it
+///   depth/NAME.depth.png .correlation.png .confidence.png .certainty.png   previews
 ///   mesh.ply, run.json
 ///   fused.ply, colmap/                                      a cloud, and a dense workspace for COLMAP, if asked for
 class Workspace {
@@ -31,11 +32,20 @@ class Workspace {
   [[nodiscard]] Expected<void> save_depth_map(const std::string& view, const DepthMap& map) const;
   /// Loads the maps of a view and checks that they fit its size. Fails (kInput).
   [[nodiscard]] Expected<DepthMap> load_depth_map(const std::string& view, int width, int height) const;
+  /// Loads the depth of a view alone. Fails (kInput) as load_depth_map does.
+  [[nodiscard]] Expected<Grid<float>> load_depth(const std::string& view, int width, int height) const;
+  /// Saves the certainty of a view's depths (confirm_depths), and its preview first. Fails (kInput).
+  [[nodiscard]] Expected<void> save_certainty(const std::string& view, const Grid<float>& certainty) const;
+  /// Loads it. Fails (kInput) as load_depth_map does.
+  [[nodiscard]] Expected<Grid<float>> load_certainty(const std::string& view, int width, int height) const;
+  /// Removes the certainty of a view, which an earlier run may have left.
+  void remove_certainty(const std::string& view) const;
   /// Removes what is left of a view from an earlier run.
   void remove_depth_map(const std::string& view) const;
 
  private:
   explicit Workspace(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  [[nodiscard]] Expected<Grid<float>> load_map(const std::string& view, const char* map, int width, int height) const;
   [[nodiscard]] std::filesystem::path map_path(const std::string& view, const char* map, const char* kind) const;
 
   std::filesystem::path folder_;

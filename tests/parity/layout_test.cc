@@ -69,6 +69,13 @@ TEST_F(LayoutParity, RefinePlanesParamsAreReadMemberByMember) {
                    p.height, p.ends_round, p.max_tilt, p.threshold, p.confidence_scale));
 }
 
+TEST_F(LayoutParity, ConfirmDepthsParamsAreReadMemberByMember) {
+  const auto p = numbered<ConfirmDepthsParams>();
+  compare("probe_confirm_depths_params", p,
+          words_of(p.warp.rotation, p.warp.offset, p.width, p.height, p.other_width, p.other_height, p.other_max_step,
+                   p.footprint, p.is_first));
+}
+
 TEST_F(LayoutParity, CollectParamsAreReadMemberByMember) {
   const auto p = numbered<CollectParams>();
   compare("probe_collect_params", p,

@@ -17,6 +17,7 @@ class LimitedBackend : public Backend {
 
   [[nodiscard]] std::string description() const override { return inner_.description(); }
   Expected<DepthMap> sweep_depth(const SweepTask& task) override { return inner_.sweep_depth(task); }
+  Expected<Grid<float>> confirm_depths(const ConfirmTask& task) override { return inner_.confirm_depths(task); }
   Expected<void> begin_volume(const VoxelGrid& grid, const FusionOptions& options) override {
     return inner_.begin_volume(grid, options);
   }

@@ -47,6 +47,7 @@ TEST(PaperCatalog, FiguresShowRunsOfTheirExperiment) {
 
 TEST(PaperOptions, AreThoseOfTheText) {
   const ReconstructOptions options = paper_options("templeRing");
+  EXPECT_FALSE(options.confirm);
   EXPECT_EQ(options.views.neighbor_count, 4);
   EXPECT_EQ(options.views.min_angle_deg, 4.0);
   EXPECT_EQ(options.sweep.window, 5);
@@ -56,6 +57,7 @@ TEST(PaperOptions, AreThoseOfTheText) {
   EXPECT_EQ(options.sweep.refinement, 10);
   EXPECT_EQ(options.mask_below, 0.19);
   EXPECT_EQ(default_options("templeRing").mask_below, 0.19);
+  EXPECT_FALSE(default_options("templeRing").confirm);
   EXPECT_EQ(default_options("synthetic24").mask_below, 0.0);
 }
 

@@ -1,0 +1,20 @@
+// Writes each member of ConfirmDepthsParams as one word.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "layout.h"
+
+layout(local_size_x = 1) in;
+layout(push_constant) uniform Push { ConfirmDepthsParams p; };
+layout(std430, binding = 0) writeonly buffer Words { uint words[]; };
+
+void main() {
+  for (int i = 0; i < 9; ++i) words[i] = floatBitsToUint(p.warp.rotation[i]);
+  for (int i = 0; i < 3; ++i) words[9 + i] = floatBitsToUint(p.warp.offset[i]);
+  words[12] = uint(p.width);
+  words[13] = uint(p.height);
+  words[14] = uint(p.other_width);
+  words[15] = uint(p.other_height);
+  words[16] = floatBitsToUint(p.other_max_step);
+  words[17] = floatBitsToUint(p.footprint);
+  words[18] = uint(p.is_first);
+}
