@@ -208,7 +208,7 @@ Expected<DepthMap> DepthStage::run(const SweepTask& task) {
   if (task.options.window_model != WindowModel::kSlanted) return depth_map_from_votes(*votes, task.planes);
   const auto planes = planes_.run(task, *votes);
   if (!planes) return std::unexpected(planes.error());
-  return depth_map_from_planes(*planes);
+  return depth_map_from_planes(*planes, task.intrinsics);
 }
 
 }  // namespace quorum

@@ -1,7 +1,7 @@
 // What the depth stages give for one reference view.
 #pragma once
 
-#include <cstdint>
+#include <Eigen/Core>
 
 #include "engine/core/grid.h"
 
@@ -12,6 +12,9 @@ struct DepthMap {
   Grid<float> depth;        ///< distance along the optical axis, scene units; 0 = none
   Grid<float> correlation;  ///< the paper's corr(d), 0..1
   Grid<float> confidence;   ///< the paper's conf(d), 0..1
+  /// Unit normals in the camera frame, toward the camera, of the windows' planes; empty if windows were not tilted, or
+  /// if they were not asked for.
+  Grid<Eigen::Vector3f> normal;
 };
 
 }  // namespace quorum

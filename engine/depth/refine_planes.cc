@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <memory>
 
 #include "engine/core/clock.h"
@@ -70,6 +71,20 @@ void for_each_tile(int width, int height, const CpuSweepOptions& cpu, const Work
   });
 }
 
+/// The plane b u + c v + e of inverse depth over pixels (u, v, 1) is K^-T n / d of the plane n · p = d, and lies before
+/// the camera, so K^T (b, c, e) points away from it.
+Eigen::Vector3f plane_normal(const PixelPlane& plane, double x, double y, const Eigen::Matrix3d& intrinsics) {
+  const double b = plane.slope_x;
+  const double c = plane.slope_y;
+  const double e = static_cast<double>(plane.inverse_depth) - b * x - c * y;
+  const double normal_x = intrinsics(0, 0) * b;
+  const double normal_y = intrinsics(0, 1) * b + intrinsics(1, 1) * c;
+  const double normal_z = intrinsics(0, 2) * b + intrinsics(1, 2) * c + e;
+  const double scale = -1.0 / std::sqrt(normal_x * normal_x + normal_y * normal_y + normal_z * normal_z);
+  return {static_cast<float>(normal_x * scale), static_cast<float>(normal_y * scale),
+          static_cast<float>(normal_z * scale)};
+}
+
 void end_round(Refinement& refinement) {
   tbb::parallel_for(std::size_t{0}, refinement.best.values.size(), [&](std::size_t pixel) {
     PixelPlane& last = refinement.last.values[pixel];
@@ -121,15 +136,19 @@ Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& fir
   return std::move(refinement.best);
 }
 
-DepthMap depth_map_from_planes(const Grid<PixelPlane>& planes) {
+DepthMap depth_map_from_planes(const Grid<PixelPlane>& planes, const Eigen::Matrix3d& intrinsics) {
   DepthMap map{Grid<float>(planes.width, planes.height), Grid<float>(planes.width, planes.height),
-               Grid<float>(planes.width, planes.height)};
+               Grid<float>(planes.width, planes.height),
+               Grid<Eigen::Vector3f>(planes.width, planes.height, Eigen::Vector3f::Zero())};
   for (std::size_t pixel = 0; pixel < planes.values.size(); ++pixel) {
     const PixelPlane& plane = planes.values[pixel];
     if (plane.inverse_depth == 0.0F) continue;
     map.depth.values[pixel] = reciprocal(plane.inverse_depth);
     map.correlation.values[pixel] = plane.correlation;
     map.confidence.values[pixel] = std::min(plane.confidence, 1.0F);
+    const auto width = static_cast<std::size_t>(planes.width);
+    map.normal.values[pixel] =
+        plane_normal(plane, static_cast<double>(pixel % width), static_cast<double>(pixel / width), intrinsics);
   }
   return map;
 }

@@ -93,7 +93,7 @@ DepthMap sweep_depth(const SweepTask& task, const CpuSweepOptions& cpu, SweepWor
   if (task.options.window_model == WindowModel::kSlanted) {
     const Grid<PixelPlane> planes = refine_planes(task, votes, cpu, &done.refine);
     if (work != nullptr) *work = done;
-    return depth_map_from_planes(planes);
+    return depth_map_from_planes(planes, task.intrinsics);
   }
   if (task.planes.refinement > 1) votes = sweep_planes(task, refine_ranges(votes, task.planes), 1, cpu, &done.refine);
   if (work != nullptr) *work = done;

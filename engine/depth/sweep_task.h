@@ -1,6 +1,7 @@
 // All that the sweep of one reference view needs, ready for any backend.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <vector>
 
@@ -20,7 +21,8 @@ struct SweepTask {
   DepthPlanes planes;
   Grid<PlaneRange> ranges;
   SweepOptions options;
-  float max_tilt = 0.0F;  ///< of slanted windows, see max_plane_tilt()
+  Eigen::Matrix3d intrinsics = Eigen::Matrix3d::Identity();  ///< of the reference view
+  float max_tilt = 0.0F;                                     ///< of slanted windows, see max_plane_tilt()
 
   [[nodiscard]] int neighbor_count() const { return static_cast<int>(neighbors.size()); }
 };

@@ -10,8 +10,10 @@ VoteRule make_vote_rule(const SweepOptions& options, int neighbor_count) {
 }
 
 DepthMap depth_map_from_votes(const Grid<PixelVote>& votes, const DepthPlanes& planes) {
-  DepthMap map{Grid<float>(votes.width, votes.height), Grid<float>(votes.width, votes.height),
-               Grid<float>(votes.width, votes.height)};
+  DepthMap map{Grid<float>(votes.width, votes.height),
+               Grid<float>(votes.width, votes.height),
+               Grid<float>(votes.width, votes.height),
+               {}};
   for (std::size_t pixel = 0; pixel < votes.values.size(); ++pixel) {
     const PixelVote& best = votes.values[pixel];
     if (best.plane < 0) continue;

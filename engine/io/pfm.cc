@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -23,12 +24,14 @@ struct Header {
   std::size_t size = 0;  ///< bytes
 };
 
-Expected<Header> read_header(const std::filesystem::path& path, std::string_view bytes) {
+/// kind: "Pf" for one channel, "PF" for three.
+Expected<Header> read_header(const std::filesystem::path& path, std::string_view bytes, std::string_view kind) {
   LineReader lines(bytes);
-  const std::string_view kind = lines.next().value_or("");
-  if (kind == "PF") return failure_at_line(path, 1, "has three channels (PF), expected one (Pf)");
-  if (kind != "Pf")
-    return failure_at_line(path, 1, fmt::format("expected Pf, found {}: not a PFM file", quote_token(kind)));
+  const std::string_view found = lines.next().value_or("");
+  if (found != kind && found == "PF") return failure_at_line(path, 1, "has three channels (PF), expected one (Pf)");
+  if (found != kind && found == "Pf") return failure_at_line(path, 1, "has one channel (Pf), expected three (PF)");
+  if (found != kind)
+    return failure_at_line(path, 1, fmt::format("expected {}, found {}: not a PFM file", kind, quote_token(found)));
 
   Header header;
   const auto size = split_tokens(lines.next().value_or(""));
@@ -47,36 +50,55 @@ Expected<Header> read_header(const std::filesystem::path& path, std::string_view
   return header;
 }
 
-}  // namespace
-
-Expected<void> write_pfm(const std::filesystem::path& path, const Grid<float>& map) {
-  std::string bytes = fmt::format("Pf\n{} {}\n-1.0\n", map.width, map.height);
-  bytes.reserve(bytes.size() + map.values.size() * sizeof(float));
+template <typename Value>
+Expected<void> write_map(const std::filesystem::path& path, const char* kind, const Grid<Value>& map) {
+  std::string bytes = fmt::format("{}\n{} {}\n-1.0\n", kind, map.width, map.height);
+  bytes.reserve(bytes.size() + map.values.size() * sizeof(Value));
   for (int y = map.height - 1; y >= 0; --y)
-    bytes.append(reinterpret_cast<const char*>(map.row(y)), static_cast<std::size_t>(map.width) * sizeof(float));
+    bytes.append(reinterpret_cast<const char*>(map.row(y)), static_cast<std::size_t>(map.width) * sizeof(Value));
   return write_file(path, bytes);
 }
 
-Expected<Grid<float>> read_pfm(const std::filesystem::path& path) {
+template <typename Value>
+Expected<Grid<Value>> read_map(const std::filesystem::path& path, std::string_view kind, const Value& zero) {
   const auto bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
-  const auto header = read_header(path, *bytes);
+  const auto header = read_header(path, *bytes, kind);
   if (!header) return std::unexpected(header.error());
 
-  const std::uint64_t expected = std::uint64_t{4} * static_cast<std::uint64_t>(header->width) * header->height;
+  const std::uint64_t expected = sizeof(Value) * static_cast<std::uint64_t>(header->width) * header->height;
   const std::uint64_t found = bytes->size() - header->size;
   if (found != expected)
     return failure_at_line(path, 2,
                            fmt::format("{} x {} values take {} bytes after the header, found {}", header->width,
                                        header->height, expected, found));
 
-  Grid<float> map(header->width, header->height);
-  const std::size_t row_size = static_cast<std::size_t>(map.width) * sizeof(float);
-  for (int y = 0; y < map.height && row_size > 0; ++y)
-    std::memcpy(map.row(map.height - 1 - y), bytes->data() + header->size + row_size * y, row_size);
-  if (header->big_endian)
-    for (float& value : map.values) value = std::bit_cast<float>(std::byteswap(std::bit_cast<std::uint32_t>(value)));
+  Grid<Value> map(header->width, header->height, zero);
+  const std::size_t row_size = static_cast<std::size_t>(map.width) * sizeof(Value);
+  for (int y = 0; y < map.height && row_size > 0; ++y) {
+    auto* row = reinterpret_cast<unsigned char*>(map.row(map.height - 1 - y));
+    std::memcpy(row, bytes->data() + header->size + row_size * static_cast<std::size_t>(y), row_size);
+    if (!header->big_endian) continue;
+    for (std::size_t word = 0; word < row_size; word += 4) std::reverse(row + word, row + word + 4);
+  }
   return map;
+}
+
+}  // namespace
+
+Expected<void> write_pfm(const std::filesystem::path& path, const Grid<float>& map) {
+  return write_map(path, "Pf", map);
+}
+
+Expected<void> write_pfm(const std::filesystem::path& path, const Grid<Eigen::Vector3f>& map) {
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  return write_map(path, "PF", map);
+}
+
+Expected<Grid<float>> read_pfm(const std::filesystem::path& path) { return read_map(path, "Pf", 0.0F); }
+
+Expected<Grid<Eigen::Vector3f>> read_pfm_vectors(const std::filesystem::path& path) {
+  return read_map<Eigen::Vector3f>(path, "PF", Eigen::Vector3f::Zero());
 }
 
 }  // namespace quorum

@@ -1,6 +1,7 @@
-// Float maps as PFM files (Paul Debevec's "portable float map"): one channel, rows from the bottom.
+// Float maps as PFM files (Paul Debevec's "portable float map"): one channel or three, rows from the bottom.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 
 #include "engine/core/error.h"
@@ -12,8 +13,14 @@ namespace quorum {
 /// 0. Fails (kInput) if the file can't be written.
 Expected<void> write_pfm(const std::filesystem::path& path, const Grid<float>& map);
 
+/// Writes a three-channel one in the same way.
+Expected<void> write_pfm(const std::filesystem::path& path, const Grid<Eigen::Vector3f>& map);
+
 /// Reads a one-channel PFM of either byte order. The size of the scale is ignored, as other readers do. Fails (kInput)
 /// if the header is malformed or the file is shorter or longer than the header says: the message names file and line.
 Expected<Grid<float>> read_pfm(const std::filesystem::path& path);
+
+/// Reads a three-channel PFM in the same way.
+Expected<Grid<Eigen::Vector3f>> read_pfm_vectors(const std::filesystem::path& path);
 
 }  // namespace quorum

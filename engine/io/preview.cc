@@ -59,4 +59,17 @@ ColorImage color_map_unit(const Grid<float>& map) {
   return image;
 }
 
+ColorImage color_map_normal(const Grid<Eigen::Vector3f>& normals) {
+  ColorImage image(normals.width, normals.height);
+  const auto level = [](float value) {
+    return static_cast<std::uint32_t>(std::clamp(value, -1.0F, 1.0F) * 127.5F + 127.5F);
+  };
+  for (std::size_t i = 0; i < normals.values.size(); ++i) {
+    const Eigen::Vector3f& normal = normals.values[i];
+    const bool exists = normal.x() != 0.0F || normal.y() != 0.0F || normal.z() != 0.0F;
+    image.values[i] = exists ? make_rgb(level(normal.x()), level(-normal.y()), level(-normal.z())) : make_rgb(0, 0, 0);
+  }
+  return image;
+}
+
 }  // namespace quorum

@@ -10,7 +10,6 @@
 #include "engine/io/file.h"
 #include "engine/io/scene_pictures.h"
 #include "engine/pipeline/memory_budget.h"
-#include "engine/volume/depth_normals.h"
 
 namespace quorum {
 namespace {
@@ -138,13 +137,13 @@ Expected<void> write_colmap_workspace(const fs::path& folder, const Scene& scene
     if (scene.points.empty())
       if (auto added = add_points(scene, workspace, reference, map->depth, points); !added) return added;
     const std::string file = names[static_cast<std::size_t>(reference.view)] + ".geometric.bin";
-    const Camera& camera = view_at(scene, reference.view).camera;
     for (const char* maps : {"depth_maps", "normal_maps"})
       if (auto made = make_folder((folder / "stereo" / maps / file).parent_path()); !made) return made;
     if (auto written = write_colmap_map(folder / "stereo/depth_maps" / file, map->depth); !written) return written;
-    if (auto written = write_colmap_map(folder / "stereo/normal_maps" / file, depth_normals(map->depth, camera));
-        !written)
-      return written;
+    const View& view = view_at(scene, reference.view);
+    const auto normals = workspace.load_normals(view.name, view.width, view.height);
+    if (!normals) return std::unexpected(normals.error());
+    if (auto written = write_colmap_map(folder / "stereo/normal_maps" / file, *normals); !written) return written;
     progress.step();
   }
   if (auto written = write_pictures(folder / "images", scene, names); !written) return written;

@@ -8,7 +8,6 @@
 
 #include "engine/io/image_store.h"
 #include "engine/pipeline/memory_budget.h"
-#include "engine/volume/depth_normals.h"
 
 namespace quorum {
 namespace {
@@ -99,7 +98,6 @@ void drop_doubtful(Mesh& cloud) {
 
 /// Adds the points that a view begins.
 void add_points(FusedView& reference, std::vector<FusedView>& neighbors, const ColorImage& image, Mesh& cloud) {
-  const Grid<Eigen::Vector3f> normals = depth_normals(reference.map.depth, reference.view.camera);
   const Eigen::Matrix3f world_from_camera = reference.view.camera.camera_from_world.transpose().cast<float>();
   std::vector<Sighting> sightings;
   for (int y = 0; y < reference.map.depth.height; ++y) {
@@ -117,8 +115,8 @@ void add_points(FusedView& reference, std::vector<FusedView>& neighbors, const C
         seen.view->used[seen.view->place(seen.x, seen.y)] = true;
       }
       const Eigen::Vector3d position = sum.weight > 0 ? Eigen::Vector3d(sum.position / sum.weight) : point;
-      cloud.vertices.push_back({position.cast<float>(), world_from_camera * normals.at(x, y), image.at(x, y),
-                                static_cast<float>(sum.weight)});
+      cloud.vertices.push_back({position.cast<float>(), world_from_camera * reference.map.normal.at(x, y),
+                                image.at(x, y), static_cast<float>(sum.weight)});
     }
   }
 }
@@ -161,6 +159,9 @@ Expected<Mesh> fuse_points(const Scene& scene, const ReconstructOptions& options
       return std::unexpected(fits.error());
     auto reference = load(index);
     if (!reference) return std::unexpected(reference.error());
+    auto normals = workspace.load_normals(reference->view.name, reference->view.width, reference->view.height);
+    if (!normals) return std::unexpected(normals.error());
+    reference->map.normal = std::move(*normals);
     std::vector<FusedView> neighbors;
     for (const int neighbor : selected) {
       if (!has_map(neighbor)) continue;

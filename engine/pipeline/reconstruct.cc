@@ -12,6 +12,7 @@
 #include "engine/pipeline/background_thread.h"
 #include "engine/pipeline/confirm_views.h"
 #include "engine/pipeline/fuse_views.h"
+#include "engine/volume/depth_normals.h"
 
 namespace quorum {
 namespace {
@@ -34,6 +35,7 @@ Expected<SweepTask> make_sweep_task(const Scene& scene, int reference, const std
   task.planes = std::move(*planes);
   auto mask = images.mask(reference);
   if (!mask) return std::unexpected(mask.error());
+  task.intrinsics = view_at(scene, reference).camera.intrinsics;
   task.max_tilt = max_plane_tilt(view_at(scene, reference).camera);
   task.ranges = make_plane_ranges(view_at(scene, reference), scene.bounds, **mask, task.planes, options.window / 2);
   auto image = load_padded(images, reference);
@@ -95,7 +97,7 @@ std::vector<ReferenceView> choose_references(const Scene& scene, const SelectVie
 /// What the depth map of one view takes at most: its task and the next one's, which is read meanwhile, the sweep, and
 /// the maps of the last view, which are written meanwhile.
 std::uint64_t view_bytes(const Scene& scene, const ReconstructOptions& options, const Backend& backend) {
-  constexpr std::uint64_t kWrittenBytes = 32;  // a pixel: three maps, a file's bytes, pictures
+  constexpr std::uint64_t kWrittenBytes = 56;  // a pixel: four maps, a file's bytes, pictures
   const auto neighbors = static_cast<std::uint64_t>(options.views.neighbor_count);
   const std::uint64_t task_bytes = 4 * (1 + neighbors) + 8 + 6;  // padded images, ranges; a photograph and its mask
   constexpr std::uint64_t kDistortedBytes = 12;                  // a pixel of a photograph: file, decoded, in color
@@ -160,6 +162,7 @@ Expected<void> compute_depth_maps(const Scene& scene, const ReconstructOptions& 
       map = backend.sweep_depth(*task);
     }
     if (!map) return std::unexpected(map.error().within(name));
+    if (map->normal.empty()) map->normal = depth_normals(map->depth, view_at(scene, reference).camera);
     report.views.push_back(report_view(scene, reference, neighbors, *task, *map));
     if (auto saved = writing.get(); !saved) return saved;
     writing = writer.run([&workspace, &name, map = std::move(*map)] { return workspace.save_depth_map(name, map); });

@@ -25,26 +25,39 @@ bool Workspace::has_depth_map(const std::string& view) const {
 }
 
 Expected<void> Workspace::save_depth_map(const std::string& view, const DepthMap& map) const {
-  Expected<void> saved[5];
+  Expected<void> saved[6];
   tbb::parallel_invoke(
       [&] { saved[0] = write_pfm(map_path(view, "correlation", "pfm"), map.correlation); },
       [&] { saved[1] = write_pfm(map_path(view, "confidence", "pfm"), map.confidence); },
       [&] { saved[2] = write_png(map_path(view, "correlation", "png"), color_map_unit(map.correlation)); },
       [&] { saved[3] = write_png(map_path(view, "confidence", "png"), color_map_unit(map.confidence)); },
-      [&] { saved[4] = write_png(map_path(view, "depth", "png"), color_map_depth(map.depth)); });
+      [&] { saved[4] = write_png(map_path(view, "depth", "png"), color_map_depth(map.depth)); },
+      [&] {
+        if (map.normal.empty()) return;
+        saved[5] = write_png(map_path(view, "normal", "png"), color_map_normal(map.normal));
+        if (saved[5]) saved[5] = write_pfm(map_path(view, "normal", "pfm"), map.normal);
+      });
   for (const auto& result : saved)
     if (!result) return result;
   return write_pfm(map_path(view, "depth", "pfm"), map.depth);
 }
 
-Expected<Grid<float>> Workspace::load_map(const std::string& view, const char* map, int width, int height) const {
-  const auto path = map_path(view, map, "pfm");
-  auto loaded = read_pfm(path);
+template <typename Value>
+Expected<Grid<Value>> Workspace::fitting(const std::string& view, const char* map, int width, int height,
+                                         Expected<Grid<Value>> loaded) const {
   if (loaded && (loaded->width != width || loaded->height != height))
     return failure(ErrorKind::kInput,
                    fmt::format("{}: is {} x {}, but the view is {} x {}; run `quorum depth` on this scene again",
-                               path.string(), loaded->width, loaded->height, width, height));
+                               map_path(view, map, "pfm").string(), loaded->width, loaded->height, width, height));
   return loaded;
+}
+
+Expected<Grid<float>> Workspace::load_map(const std::string& view, const char* map, int width, int height) const {
+  return fitting(view, map, width, height, read_pfm(map_path(view, map, "pfm")));
+}
+
+Expected<Grid<Eigen::Vector3f>> Workspace::load_normals(const std::string& view, int width, int height) const {
+  return fitting(view, "normal", width, height, read_pfm_vectors(map_path(view, "normal", "pfm")));
 }
 
 Expected<DepthMap> Workspace::load_depth_map(const std::string& view, int width, int height) const {
@@ -82,7 +95,7 @@ void Workspace::remove_certainty(const std::string& view) const {
 void Workspace::remove_depth_map(const std::string& view) const {
   std::error_code ignored;
   remove_certainty(view);
-  for (const char* map : {"depth", "correlation", "confidence"})
+  for (const char* map : {"depth", "correlation", "confidence", "normal"})
     for (const char* kind : {"pfm", "png"}) std::filesystem::remove(map_path(view, map, kind), ignored);
 }
 

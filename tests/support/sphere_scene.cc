@@ -122,6 +122,7 @@ SweepTask make_sphere_task(const SphereScene& sphere, int reference, const Sweep
   QUORUM_CHECK_EQ(planes.has_value(), true);
   task.planes = std::move(*planes);
   const View& view = sphere.scene.views[static_cast<std::size_t>(reference)];
+  task.intrinsics = view.camera.intrinsics;
   task.max_tilt = max_plane_tilt(view.camera);
   task.ranges = make_plane_ranges(view, sphere.scene.bounds, {}, task.planes, options.window / 2);
   const auto padded = [&](int index) {

@@ -75,35 +75,36 @@ TEST_P(WrongValues, AreRefusedWithOptionAndRange) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Reconstruct, WrongValues,
-                         testing::Values(WrongValue{{"--neighbors", "1"}, "2 to 32"},           //
-                                         WrongValue{{"--neighbors", "four"}, "four"},           //
-                                         WrongValue{{"--min-angle", "91"}, "0 to 90"},          //
-                                         WrongValue{{"--max-angle", "0"}, "1 to 180"},          //
-                                         WrongValue{{"--window", "4"}, "3 to 15"},              //
-                                         WrongValue{{"--window-model", "disc"}, "axis"},        //
-                                         WrongValue{{"--threshold", "1"}, "0 to 0.99"},         //
-                                         WrongValue{{"--threshold", "nan"}, "0 to 0.99"},       //
-                                         WrongValue{{"--min-votes", "0"}, "1 to 32"},           //
-                                         WrongValue{{"--min-votes", "5"}, "--neighbors"},       //
-                                         WrongValue{{"--depth-step", "0"}, "positive"},         //
-                                         WrongValue{{"--depth-step", "2.5in"}, "2.5mm"},        //
-                                         WrongValue{{"--depth-step", "-1mm"}, "positive"},      //
-                                         WrongValue{{"--step-pixels", "0"}, "0.05 to 8"},       //
-                                         WrongValue{{"--refinement", "33"}, "1 to 32"},         //
-                                         WrongValue{{"--mask-below", "1"}, "0 to 1"},           //
-                                         WrongValue{{"--voxel-size", "inf"}, "positive"},       //
-                                         WrongValue{{"--max-slope", "90"}, "10 to 89"},         //
-                                         WrongValue{{"--feather", "9"}, "0 to 8"},              //
-                                         WrongValue{{"--min-confidence", "-1"}, "at least 0"},  //
-                                         WrongValue{{"--threads", "-1"}, "1 to 1024"},          //
-                                         WrongValue{{"--tile", "4", "16"}, "8 to 64"},          //
-                                         WrongValue{{"--simd", "mmx"}, "baseline"},             //
-                                         WrongValue{{"--memory", "1"}, "512MiB"},               //
-                                         WrongValue{{"--memory", "0GiB"}, "512MiB"},            //
-                                         WrongValue{{"--memory", "1GiBs"}, "4GiB"},             //
-                                         WrongValue{{"--memory", "nanGiB"}, "4GiB"},            //
-                                         WrongValue{{"--memory", "-1GiB"}, "auto"},             //
-                                         WrongValue{{"--bounds", "1", "2", "3"}, "six"},        //
+                         testing::Values(WrongValue{{"--neighbors", "1"}, "2 to 32"},             //
+                                         WrongValue{{"--neighbors", "four"}, "four"},             //
+                                         WrongValue{{"--min-angle", "91"}, "0 to 90"},            //
+                                         WrongValue{{"--max-angle", "0"}, "1 to 180"},            //
+                                         WrongValue{{"--window", "4"}, "3 to 15"},                //
+                                         WrongValue{{"--window-model", "disc"}, "axis"},          //
+                                         WrongValue{{"--threshold", "1"}, "0 to 0.99"},           //
+                                         WrongValue{{"--threshold", "nan"}, "0 to 0.99"},         //
+                                         WrongValue{{"--min-votes", "0"}, "1 to 32"},             //
+                                         WrongValue{{"--min-votes", "5"}, "--neighbors"},         //
+                                         WrongValue{{"--depth-step", "0"}, "positive"},           //
+                                         WrongValue{{"--depth-step", "2.5in"}, "2.5mm"},          //
+                                         WrongValue{{"--depth-step", "-1mm"}, "positive"},        //
+                                         WrongValue{{"--step-pixels", "0.01"}, "0.05 to 8"},      //
+                                         WrongValue{{"--support-tolerance", "256"}, "0 to 255"},  //
+                                         WrongValue{{"--refinement", "33"}, "1 to 32"},           //
+                                         WrongValue{{"--mask-below", "1"}, "0 to 1"},             //
+                                         WrongValue{{"--voxel-size", "inf"}, "positive"},         //
+                                         WrongValue{{"--max-slope", "90"}, "10 to 89"},           //
+                                         WrongValue{{"--feather", "9"}, "0 to 8"},                //
+                                         WrongValue{{"--min-confidence", "-1"}, "at least 0"},    //
+                                         WrongValue{{"--threads", "-1"}, "1 to 1024"},            //
+                                         WrongValue{{"--tile", "4", "16"}, "8 to 64"},            //
+                                         WrongValue{{"--simd", "mmx"}, "baseline"},               //
+                                         WrongValue{{"--memory", "1"}, "512MiB"},                 //
+                                         WrongValue{{"--memory", "0GiB"}, "512MiB"},              //
+                                         WrongValue{{"--memory", "1GiBs"}, "4GiB"},               //
+                                         WrongValue{{"--memory", "nanGiB"}, "4GiB"},              //
+                                         WrongValue{{"--memory", "-1GiB"}, "auto"},               //
+                                         WrongValue{{"--bounds", "1", "2", "3"}, "six"},          //
                                          WrongValue{{"--bounds", "0 0 0 1 1 x"}, "x0 y0 z0 x1 y1 z1"}));
 
 TEST(CommandLine, TruncationMustFitTheVoxels) {

@@ -74,7 +74,7 @@ TestDevice find_test_device() {
 
 TEST_F(Reconstruct, ThreadsTilesAndInstructionsLeaveEveryByteAlone) {
   const Files expected = reconstruct("first", {"--device", "cpu", "--threads", "1"});
-  ASSERT_EQ(expected.size(), 8U * 6U + 1U);
+  ASSERT_EQ(expected.size(), 8U * 10U + 1U);
   ASSERT_GT(report("first")["mesh"]["triangles"].get<int>(), 1000);
   expect_same_files(expected, reconstruct("threads", {"--device", "cpu", "--threads", "2"}));
   expect_same_files(expected, reconstruct("tile", {"--device", "cpu", "--tile", "17", "5"}));

@@ -194,6 +194,26 @@ TEST(RefinePlanes, FindDepthAndSlopesOfASphereWhereFlatWindowsDoNot) {
   EXPECT_GT(right_slopes, close * 3 / 4);
 }
 
+TEST(RefinePlanes, NormalsAreThoseOfTheSphere) {
+  const SphereScene sphere = make_sphere_scene(5, kWidth, kHeight, true, 3);
+  const View& view = sphere.scene.views[2];
+  const DepthMap map = sweep_depth(make_sphere_task(sphere, 2, {}), {});
+  int seen = 0;
+  int right = 0;
+  for_each_sphere_pixel(view, 2, [&](int x, int y) {
+    if (map.depth.at(x, y) == 0.0F) return;
+    ++seen;
+    const Eigen::Vector3d point = view.camera.to_camera(view.camera.unproject(x, y, sphere_depth(view, x, y)));
+    const Eigen::Vector3d normal = (point - view.camera.to_camera(Eigen::Vector3d::Zero())).normalized();
+    EXPECT_NEAR(map.normal.at(x, y).norm(), 1.0F, 1e-5);
+    EXPECT_LT(map.normal.at(x, y).cast<double>().dot(point), 0.0) << "it faces the camera";
+    right += normal.dot(map.normal.at(x, y).cast<double>()) > std::cos(0.3) ? 1 : 0;
+  });
+  EXPECT_GT(seen, 1500);
+  EXPECT_GT(right, seen * 3 / 4);
+  EXPECT_EQ(map.normal.at(0, 0), Eigen::Vector3f(0, 0, 0));
+}
+
 TEST(RefinePlanes, TilesThreadsAndInstructionsDoNotChangeTheBytes) {
   const SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, true, 4);
   const SweepTask task = make_sphere_task(sphere, 1, {});

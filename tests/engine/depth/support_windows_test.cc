@@ -62,10 +62,10 @@ TEST(SupportWindows, WhereNothingIsAlikeTheNineOf25MostAlikeStay) {
   }
 }
 
-TEST(SupportWindows, AFlatImageHasNoDeviation) {
+TEST(SupportWindows, AFlatImageIsItsOwnSupport) {
   const auto supports = make_support_windows(pad_image(ColorImage(9, 9, make_rgb(70, 80, 90))), 5, 15);
   EXPECT_EQ(supports.at(4, 4).samples, 25);
-  EXPECT_EQ(supports.at(4, 4).inverse_deviation, 0.0F);
+  EXPECT_EQ(supports.at(4, 4).sum[0], 25 * (70 * 16 - 2048));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ OpenScene plane_scene(const std::vector<ExperimentScene>& scenes) {
   return open;
 }
 
-DepthMap plane_map() { return {Grid<float>(40, 30, 2.0F), Grid<float>(40, 30, 0.8F), Grid<float>(40, 30, 0.5F)}; }
+DepthMap plane_map() { return {Grid<float>(40, 30, 2.0F), Grid<float>(40, 30, 0.8F), Grid<float>(40, 30, 0.5F), {}}; }
 
 DepthMeasures measure(const DepthMap& map) {
   const auto scenes = tiny_scenes();

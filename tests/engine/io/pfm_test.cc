@@ -50,6 +50,18 @@ TEST_F(Pfm, KeepsValuesThatAreNotFinite) {
     EXPECT_EQ(std::bit_cast<std::uint32_t>(read.at(x, 0)), std::bit_cast<std::uint32_t>(map.at(x, 0)));
 }
 
+TEST_F(Pfm, ThreeChannelsReadBackAndAreNotTakenForOne) {
+  Grid<Eigen::Vector3f> map(5, 4, Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i < map.values.size(); ++i) map.values[i] = {static_cast<float>(i), -1.5F, 0.25F};
+  ASSERT_TRUE(write_pfm(path_, map));
+  EXPECT_EQ(read_pfm_vectors(path_).value().values, map.values);
+  expect_bad_input(read_pfm(path_), {"three channels"});
+  ASSERT_TRUE(write_pfm(path_, counting_map(7, 5)));
+  expect_bad_input(read_pfm_vectors(path_), {"one channel"});
+  write_text(path_, std::string("PF\n1 1\n1.0\n\x3f\x80\0\0\x40\0\0\0\x40\x40\0\0", 23));
+  EXPECT_EQ(read_pfm_vectors(path_).value().at(0, 0), Eigen::Vector3f(1, 2, 3)) << "big-endian";
+}
+
 TEST_F(Pfm, BottomRowComesFirst) {
   Grid<float> map(1, 2);
   map.at(0, 0) = 1.0F;

@@ -58,21 +58,25 @@ Mesh fuse(const SphereScene& sphere, const FusionOptions& options) {
 TEST(SphereFusion, ViewsAllAroundGiveTheClosedSphere) {
   FusionOptions options;
   options.voxel_size = kVoxel;
-  // Halfway between two cameras the sight is 58 degrees off the normal: cubes on the surface reach 3.3 voxels behind
-  // it.
-  options.truncation = 8 * kVoxel;
-  const Mesh mesh = fuse(make_surrounding_sphere_scene(12, kWidth, kHeight, 1), options);
-  const MeshMeasures measures = measure_mesh(mesh);
-  const double area = 4.0 * std::numbers::pi * kSphereRadius * kSphereRadius;
-  EXPECT_TRUE(measures.closed);
-  EXPECT_EQ(measures.euler_characteristic, 2);
-  EXPECT_NEAR(measures.area, area, 0.02 * area);
-  EXPECT_NEAR(measures.volume, area / 3.0 * kSphereRadius, 0.02 * area / 3.0 * kSphereRadius);
-  ASSERT_GT(mesh.vertices.size(), 5000U);
-  for (const Vertex& vertex : mesh.vertices) {
-    EXPECT_NEAR(vertex.position.cast<double>().norm(), kSphereRadius, 0.5 * kVoxel);
-    EXPECT_GT(vertex.confidence, 0.0F);
-    EXPECT_GT(vertex.normal.dot(vertex.position), 0.9F);
+  for (const SignedDistance distance : {SignedDistance::kNormal, SignedDistance::kRay}) {
+    SCOPED_TRACE(distance == SignedDistance::kNormal ? "normal" : "ray");
+    options.signed_distance = distance;
+    // Halfway between two cameras the sight is 58 degrees off the normal: cubes on the surface reach 3.3 voxels behind
+    // it along the ray.
+    options.truncation = (distance == SignedDistance::kNormal ? 4 : 8) * kVoxel;
+    const Mesh mesh = fuse(make_surrounding_sphere_scene(12, kWidth, kHeight, 1), options);
+    const MeshMeasures measures = measure_mesh(mesh);
+    const double area = 4.0 * std::numbers::pi * kSphereRadius * kSphereRadius;
+    EXPECT_TRUE(measures.closed);
+    EXPECT_EQ(measures.euler_characteristic, 2);
+    EXPECT_NEAR(measures.area, area, 0.02 * area);
+    EXPECT_NEAR(measures.volume, area / 3.0 * kSphereRadius, 0.02 * area / 3.0 * kSphereRadius);
+    ASSERT_GT(mesh.vertices.size(), 5000U);
+    for (const Vertex& vertex : mesh.vertices) {
+      EXPECT_NEAR(vertex.position.cast<double>().norm(), kSphereRadius, 0.5 * kVoxel);
+      EXPECT_GT(vertex.confidence, 0.0F);
+      EXPECT_GT(vertex.normal.dot(vertex.position), 0.9F);
+    }
   }
 }
 

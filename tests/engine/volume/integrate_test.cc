@@ -31,15 +31,16 @@ std::vector<std::uint32_t> all_blocks(const VoxelGrid& grid) {
   return blocks;
 }
 
-/// All voxels of the grid after one map of constant weight.
+/// All voxels of the grid after one map of constant weight. cosine: of all vertices, 0..1.
 std::vector<Voxel> integrate_map(const Camera& camera, const Grid<float>& depth, const ColorImage& image,
-                                 const VoxelGrid& grid) {
+                                 const VoxelGrid& grid, double cosine = 1.0) {
   FusionOptions options;
   options.max_slope_deg = 80;
   const auto cells = range_surface(depth, make_range_surface_params(camera, kWidth, kHeight, options));
+  const auto word = kWeight | static_cast<std::uint32_t>(std::lround(cosine * kCosineScale)) << kWeightBits;
   const auto blocks = all_blocks(grid);
   std::vector<Voxel> voxels(blocks.size() * kBlockVoxels);
-  integrate({depth, cells, Grid<std::uint32_t>(kWidth, kHeight, kWeight), pad_image(image)}, find_slots(blocks, blocks),
+  integrate({depth, cells, Grid<std::uint32_t>(kWidth, kHeight, word), pad_image(image)}, find_slots(blocks, blocks),
             make_integrate_params(camera, kWidth, kHeight, grid), best_simd_level(), voxels);
   return voxels;
 }
@@ -51,13 +52,13 @@ Eigen::Vector3d voxel_position(const VoxelGrid& grid, std::size_t index) {
          grid.voxel_size * Eigen::Vector3d(bx * 8 + voxel % 8, by * 8 + voxel / 8 % 8, bz * 8 + voxel / 64);
 }
 
-TEST(Integrate, PlanesGiveTheirDistanceAlongTheLineOfSight) {
+TEST(Integrate, PlanesGiveTheirDistanceAlongTheLineOfSightTimesTheCosine) {
   const Camera camera = straight_camera(kWidth, kHeight, 160);
   const VoxelGrid grid = make_grid();
-  for (const double angle : {0.0, 50.0}) {
+  for (const auto& [angle, cosine] : {std::pair{0.0, 1.0}, {50.0, 1.0}, {50.0, 0.625}}) {
     const double slope = std::tan(angle * std::numbers::pi / 180.0);
     const auto voxels = integrate_map(camera, plane_depth(camera, kWidth, kHeight, 2.0, angle),
-                                      ColorImage(kWidth, kHeight, make_rgb(1, 2, 3)), grid);
+                                      ColorImage(kWidth, kHeight, make_rgb(1, 2, 3)), grid, cosine);
     int seen = 0;
     int behind = 0;
     for (std::size_t index = 0; index < voxels.size(); ++index) {
@@ -65,7 +66,7 @@ TEST(Integrate, PlanesGiveTheirDistanceAlongTheLineOfSight) {
       const Eigen::Vector3d pixel = camera.project(position);
       const bool visible = pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < kWidth - 1 && pixel.y() < kHeight - 1;
       const double on_ray = 2.0 / (1.0 - slope * position.x() / position.z());
-      const double distance = (on_ray - position.z()) * (position.norm() / position.z()) / grid.truncation;
+      const double distance = (on_ray - position.z()) * (position.norm() / position.z()) * cosine / grid.truncation;
       // Inverse depth is linear on a plane, depth on a triangle: they differ by far less than this.
       constexpr double kFuzz = 2e-3;
       if (!visible || distance > 1.0 + kFuzz || distance < -kBehindShare - kFuzz) {

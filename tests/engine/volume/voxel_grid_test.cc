@@ -24,10 +24,14 @@ TEST(VoxelGrid, CoversTheBoundsAndOneTruncationMore) {
   }
 }
 
-TEST(VoxelGrid, AutomaticVoxelsAreAPixelsFootprintAndTheTruncationFourVoxels) {
-  const VoxelGrid grid = make_voxel_grid(make_sphere_scene(3, 60, 40, false, 1).scene, {}).value();
+TEST(VoxelGrid, AutomaticVoxelsAreAPixelsFootprintAndTheTruncationThreeOrFour) {
+  const Scene scene = make_sphere_scene(3, 60, 40, false, 1).scene;
+  const VoxelGrid grid = make_voxel_grid(scene, {}).value();
   EXPECT_NEAR(grid.voxel_size, 4.0 / (1.405 * 60), 1e-9);
-  EXPECT_NEAR(grid.truncation, 4 * grid.voxel_size, 1e-12);
+  EXPECT_NEAR(grid.truncation, 3 * grid.voxel_size, 1e-12);
+  FusionOptions along_rays;
+  along_rays.signed_distance = SignedDistance::kRay;
+  EXPECT_NEAR(make_voxel_grid(scene, along_rays).value().truncation, 4 * grid.voxel_size, 1e-12);
 }
 
 TEST(VoxelGrid, BlockIndicesAndPositionsAreInverse) {

@@ -95,7 +95,9 @@ TEST(WeighSurface, AHoleIsABorderToo) {
   const Camera camera = straight_camera(kSide, kSide, 1000);
   Grid<float> depth(kSide, kSide, 2.0F);
   depth.at(kCenter, kCenter) = 0.0F;
-  const auto weights = weigh(camera, depth, 1.0F, {});
+  FusionOptions options;
+  options.feather = 4;
+  const auto weights = weigh(camera, depth, 1.0F, options);
   EXPECT_EQ(weights.at(kCenter, kCenter), 0U);
   for (int x = kCenter + 1; x < kCenter + 4; ++x) EXPECT_LT(weights.at(x, kCenter), weights.at(x + 1, kCenter));
 }
@@ -123,6 +125,7 @@ TEST(WeighSurface, FactorsCanBeLeftOut) {
   const Camera camera = straight_camera(kSide, kSide, 1000);
   const auto grazing = plane_depth(camera, kSide, kSide, 2.0, 60);
   FusionOptions options;
+  options.feather = 4;
   EXPECT_NEAR(weigh(camera, grazing, 0.5F, options).at(kCenter, kCenter), 64, 1);
   options.weigh_confidence = false;
   EXPECT_NEAR(weigh(camera, grazing, 0.5F, options).at(kCenter, kCenter), 128, 1);
