@@ -39,11 +39,11 @@ std::size_t VulkanBackend::max_blocks(std::uint64_t host_bytes) const {
 std::uint64_t VulkanBackend::view_bytes(std::uint64_t pixels, int neighbors) const {
   constexpr std::uint64_t kStaging = 16 << 20;
   constexpr std::uint64_t kNccValues = 64 << 20;
-  // Of the host: votes, ranges, what the planes begin with, reference windows, the planes, the maps.
-  const std::uint64_t host = kStaging + (neighbors > 0 ? 96 : 44) * pixels;
+  // Of the host: votes, ranges, what the planes begin with, support windows, the planes, the maps.
+  const std::uint64_t host = kStaging + (neighbors > 0 ? 116 : 44) * pixels;
   if (!shares_memory()) return host;
-  // Of the device: photographs, reference windows, ranges, planes twice, and those that are tried.
-  return host + kNccValues + (4 * (1 + static_cast<std::uint64_t>(neighbors)) + (neighbors > 0 ? 92 : 20)) * pixels;
+  // Of the device: photographs, support windows, ranges, planes twice, and those that are tried.
+  return host + kNccValues + (4 * (1 + static_cast<std::uint64_t>(neighbors)) + (neighbors > 0 ? 100 : 20)) * pixels;
 }
 
 std::vector<StageTime> VulkanBackend::kernel_times() const {

@@ -114,9 +114,9 @@ std::size_t CpuBackend::max_blocks(std::uint64_t host_bytes) const {
 }
 
 std::uint64_t CpuBackend::view_bytes(std::uint64_t pixels, int neighbors) const {
-  // The sweep: votes, planes twice, what they begin with, their ranges, reference windows, the maps. The surface:
+  // The sweep: votes, planes twice, what they begin with, their ranges, support windows, the maps. The surface:
   // cells, weights, maps.
-  return (neighbors > 0 ? 116 : 44) * pixels;
+  return (neighbors > 0 ? 136 : 44) * pixels;
 }
 
 Expected<DeviceRates> CpuBackend::measure_rates() {
