@@ -2,19 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "engine/core/exact.h"
+#include "tests/engine/depth/random_image.h"
 
 namespace quorum {
 namespace {
-
-PaddedImage random_image(int width, int height, unsigned seed) {
-  std::mt19937 random(seed);
-  ColorImage image(width, height);
-  for (Rgba& pixel : image.values) pixel = static_cast<Rgba>(random() & 0xffffffU);
-  return pad_image(image);
-}
 
 ReferenceWindow direct_window(const PaddedImage& image, int window, int x, int y) {
   const int radius = window / 2;

@@ -3,20 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
-#include "engine/core/exact.h"
 #include "engine/depth/reference_windows.h"
+#include "tests/engine/depth/random_image.h"
 
 namespace quorum {
 namespace {
-
-PaddedImage random_image(int width, int height, unsigned seed) {
-  std::mt19937 random(seed);
-  ColorImage image(width, height);
-  for (Rgba& pixel : image.values) pixel = static_cast<Rgba>(random() & 0xffffffU);
-  return pad_image(image);
-}
 
 TEST(SupportWindows, AToleranceOf255KeepsWholeWindows) {
   for (const int window : {3, 5, 15}) {
