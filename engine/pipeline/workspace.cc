@@ -57,7 +57,12 @@ Expected<Grid<float>> Workspace::load_map(const std::string& view, const char* m
 }
 
 Expected<Grid<Eigen::Vector3f>> Workspace::load_normals(const std::string& view, int width, int height) const {
-  return fitting(view, "normal", width, height, read_pfm_vectors(map_path(view, "normal", "pfm")));
+  const std::filesystem::path path = map_path(view, "normal", "pfm");
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    return failure(ErrorKind::kInput,
+                   fmt::format("{}: is missing; run `quorum depth` on this scene again", path.string()));
+  return fitting(view, "normal", width, height, read_pfm_vectors(path));
 }
 
 Expected<DepthMap> Workspace::load_depth_map(const std::string& view, int width, int height) const {
