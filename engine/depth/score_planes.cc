@@ -3,7 +3,9 @@
 #include "engine/depth/score_planes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 
 #include "engine/core/check.h"
@@ -19,28 +21,82 @@ constexpr int kLanes = PlaneBatch::kCapacity;
 template <typename T>
 using Lanes = std::array<T, kLanes>;
 
-/// What a thread needs to score a batch against one neighbor.
+constexpr int kMaxWindow = 15;
+
+/// What a thread needs to score a batch.
 struct Workspace {
-  Lanes<std::int32_t> u, v, u_x, v_x, u_y, v_y, seen;  // WindowPlacement
-  Lanes<std::int32_t> fraction_x, fraction_y, texel_index;
-  Lanes<std::int32_t> reference_index;  // of the window's center
-  Lanes<std::uint32_t> texel[4];        // upper left, upper right, lower left, lower right
-  Lanes<std::uint32_t> reference;
-  Lanes<std::int32_t> sum_b[3];
-  Lanes<std::int32_t> squares, products;
+  // Of the supports, for all neighbors.
   Lanes<std::int32_t> sum_a[3];
   Lanes<float> inverse_deviation;
   Lanes<std::int32_t> support_samples;
-  Lanes<std::int32_t> center[3];       // samples of the window's center
-  Lanes<std::int32_t> max_difference;  // from the center, of samples
+  std::array<Lanes<Rgba>, kMaxWindow * kMaxWindow> reference;  // texels of the windows; kBelongs: part of the support
+
+  // Of one neighbor.
+  Lanes<std::int32_t> u, v, u_x, v_x, u_y, v_y, seen;  // WindowPlacement
+  Lanes<std::int32_t> fraction_x, fraction_y, texel_index;
+  Lanes<std::uint64_t> top, bottom;  // two texels side by side
+  Lanes<std::int32_t> sum_b[3];
+  Lanes<std::int32_t> squares, products;
 };
+
+constexpr std::uint32_t kBelongs = 0x80000000U;
+
+/// Two texels side by side, and each of them.
+[[gnu::always_inline]] inline std::uint64_t texel_pair(const Rgba* left) {
+  std::uint64_t pair;
+  std::memcpy(&pair, left, sizeof(pair));
+  return pair;
+}
+constexpr int kLeftShift = std::endian::native == std::endian::little ? 0 : 32;
+[[gnu::always_inline]] inline Rgba left_of(std::uint64_t pair) { return static_cast<Rgba>(pair >> kLeftShift); }
+[[gnu::always_inline]] inline Rgba right_of(std::uint64_t pair) { return static_cast<Rgba>(pair >> (32 - kLeftShift)); }
+
+/// Supports of the batch: their sums, and their samples of the reference.
+[[gnu::always_inline]] inline void read_supports(const PlaneScorer& scorer, const PlaneBatch& batch, int window,
+                                                 int shift, Workspace& work) {
+  const PaddedImage& reference = *scorer.task.reference;
+  const auto lanes = static_cast<std::size_t>(batch.count);
+  Lanes<std::int32_t> pixel;
+  Lanes<std::int32_t> max_difference;
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const SupportWindow& support = scorer.windows.at(batch.x[i], batch.y[i]);
+    for (std::size_t channel = 0; channel < 3; ++channel) work.sum_a[channel][i] = support.sum[channel];
+    work.inverse_deviation[i] = support.inverse_deviation;
+    work.support_samples[i] = support.samples;
+    max_difference[i] = support.max_difference;
+    pixel[i] = batch.y[i] * reference.stride() + batch.x[i];
+  }
+  const auto sample = [shift](std::uint32_t value) { return static_cast<std::int32_t>((value << 16) >> shift); };
+  const auto apart = [&](std::uint32_t a, std::uint32_t b) { return std::abs(sample(a) - sample(b)); };
+  const int radius = window / 2;
+  const Lanes<Rgba>& center = work.reference[static_cast<std::size_t>(window * window / 2)];
+  const auto read = [&](int index) {
+    const int offset = (index / window - radius) * reference.stride() + index % window - radius;
+    const Rgba* pixels = reference.pixels.data() + offset;
+    Lanes<Rgba>& texels = work.reference[static_cast<std::size_t>(index)];
+    for (std::size_t i = 0; i < lanes; ++i) texels[i] = pixels[pixel[i]];
+  };
+  const auto mark = [&](int index) {
+    Lanes<Rgba>& texels = work.reference[static_cast<std::size_t>(index)];
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const std::int32_t difference = std::max(
+          std::max(apart(red_of(texels[i]), red_of(center[i])), apart(green_of(texels[i]), green_of(center[i]))),
+          apart(blue_of(texels[i]), blue_of(center[i])));
+      const bool belongs = difference <= sample(static_cast<std::uint32_t>(max_difference[i]));
+      texels[i] = (texels[i] & ~kBelongs) | (belongs ? kBelongs : 0U);
+    }
+  };
+  for (int index = 0; index < window * window; ++index) read(index);
+  for (int index = 0; index < window * window; ++index) mark(index);
+}
 
 [[gnu::always_inline]] inline void place_windows(const SweepTask& task, std::size_t neighbor, const PlaneBatch& batch,
                                                  int radius, Workspace& work) {
   const PlaneWarp warp = task.warps[neighbor];
   const int width = task.neighbors[neighbor]->width;
   const int height = task.neighbors[neighbor]->height;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+  const auto lanes = static_cast<std::size_t>(batch.count);
+  for (std::size_t i = 0; i < lanes; ++i) {
     const WindowPlacement at = place_window(warp, batch.x[i], batch.y[i], batch.inverse_depth[i], batch.slope_x[i],
                                             batch.slope_y[i], radius, width, height);
     const std::int32_t seen = -static_cast<std::int32_t>(at.seen);
@@ -54,27 +110,13 @@ struct Workspace {
   }
 }
 
-[[gnu::always_inline]] inline void read_texels(const PaddedImage& reference, int reference_offset,
-                                               const PaddedImage& neighbor, int count, Workspace& work) {
-  const Rgba* reference_pixels = reference.pixels.data() + reference_offset;
-  const Rgba* pixels = neighbor.pixels.data();
-  const std::ptrdiff_t stride = neighbor.stride();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    const Rgba* texel = pixels + work.texel_index[i];
-    work.texel[0][i] = texel[0];
-    work.texel[1][i] = texel[1];
-    work.texel[2][i] = texel[stride];
-    work.texel[3][i] = texel[stride + 1];
-    work.reference[i] = reference_pixels[work.reference_index[i]];
-  }
-}
-
 /// Adds one sample of every window, or nothing where it does not belong to the support. Interpolates as
 /// sample_bilinear(), red and blue in one word.
-[[gnu::always_inline]] inline void add_samples(int count, int shift, Workspace& work) {
+[[gnu::always_inline]] inline void add_samples(const Lanes<Rgba>& reference, std::size_t lanes, int shift,
+                                               Workspace& work) {
   constexpr std::uint32_t kRedBlue = 0x00ff00ffU;
   const std::int32_t center = 1 << (23 - shift);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+  for (std::size_t i = 0; i < lanes; ++i) {
     const auto fraction_x = static_cast<std::uint32_t>(work.fraction_x[i]);
     const auto fraction_y = static_cast<std::uint32_t>(work.fraction_y[i]);
     const auto along_x = [&](std::uint32_t left, std::uint32_t right) {
@@ -84,17 +126,15 @@ struct Workspace {
       return static_cast<std::int32_t>(((top << 8) + (bottom - top) * fraction_y) >> shift) - center;
     };
     const auto sample = [&](std::uint32_t value) { return static_cast<std::int32_t>((value << 16) >> shift) - center; };
-    const std::uint32_t top = along_x(work.texel[0][i] & kRedBlue, work.texel[1][i] & kRedBlue);
-    const std::uint32_t bottom = along_x(work.texel[2][i] & kRedBlue, work.texel[3][i] & kRedBlue);
-    const std::uint32_t top_green = along_x(green_of(work.texel[0][i]), green_of(work.texel[1][i]));
-    const std::uint32_t bottom_green = along_x(green_of(work.texel[2][i]), green_of(work.texel[3][i]));
-    const std::int32_t a_red = sample(red_of(work.reference[i]));
-    const std::int32_t a_green = sample(green_of(work.reference[i]));
-    const std::int32_t a_blue = sample(blue_of(work.reference[i]));
-    const auto apart = [](std::int32_t a, std::int32_t b) { return std::max(a - b, b - a); };
-    const std::int32_t difference = std::max(
-        std::max(apart(a_red, work.center[0][i]), apart(a_green, work.center[1][i])), apart(a_blue, work.center[2][i]));
-    const std::int32_t belongs = (difference - work.max_difference[i] - 1) >> 31;
+    const Rgba top_left = left_of(work.top[i]);
+    const Rgba top_right = right_of(work.top[i]);
+    const Rgba bottom_left = left_of(work.bottom[i]);
+    const Rgba bottom_right = right_of(work.bottom[i]);
+    const std::uint32_t top = along_x(top_left & kRedBlue, top_right & kRedBlue);
+    const std::uint32_t bottom = along_x(bottom_left & kRedBlue, bottom_right & kRedBlue);
+    const std::uint32_t top_green = along_x(green_of(top_left), green_of(top_right));
+    const std::uint32_t bottom_green = along_x(green_of(bottom_left), green_of(bottom_right));
+    const std::int32_t belongs = static_cast<std::int32_t>(reference[i]) >> 31;
     const std::int32_t red = along_y(top & 0xffffU, bottom & 0xffffU) & belongs;
     const std::int32_t green = along_y(top_green, bottom_green) & belongs;
     const std::int32_t blue = along_y(top >> 16, bottom >> 16) & belongs;
@@ -102,38 +142,44 @@ struct Workspace {
     work.sum_b[1][i] += green;
     work.sum_b[2][i] += blue;
     work.squares[i] += red * red + green * green + blue * blue;
-    work.products[i] += a_red * red + a_green * green + a_blue * blue;
+    work.products[i] += sample(red_of(reference[i])) * red + sample(green_of(reference[i])) * green +
+                        sample(blue_of(reference[i])) * blue;
   }
 }
 
-[[gnu::always_inline]] inline void sum_windows(const SweepTask& task, std::size_t neighbor, int count, int radius,
-                                               int shift, Workspace& work) {
-  const PaddedImage& reference = *task.reference;
-  const PaddedImage& image = *task.neighbors[neighbor];
+[[gnu::always_inline]] inline void sum_windows(const PaddedImage& image, int count, int window, int shift,
+                                               Workspace& work) {
   const auto lanes = static_cast<std::size_t>(count);
   for (auto& sums : work.sum_b) std::fill_n(sums.begin(), count, 0);
   std::fill_n(work.squares.begin(), count, 0);
   std::fill_n(work.products.begin(), count, 0);
   constexpr int kShift = kPlacementBits - kPositionBits;
+  const Rgba* pixels = image.pixels.data();
   const int stride = image.stride();
-  for (int dy = -radius; dy <= radius; ++dy) {
-    for (int dx = -radius; dx <= radius; ++dx) {
-      for (std::size_t i = 0; i < lanes; ++i) {
-        const std::int32_t u = (work.u[i] + (dx * work.u_x[i] + dy * work.u_y[i])) >> kShift;
-        const std::int32_t v = (work.v[i] + (dx * work.v_x[i] + dy * work.v_y[i])) >> kShift;
-        work.fraction_x[i] = u & (kPositionScale - 1);
-        work.fraction_y[i] = v & (kPositionScale - 1);
-        work.texel_index[i] = (v >> kPositionBits) * stride + (u >> kPositionBits);
-      }
-      read_texels(reference, dy * reference.stride() + dx, image, count, work);
-      add_samples(count, shift, work);
+  const int radius = window / 2;
+  for (int index = 0; index < window * window; ++index) {
+    const int dx = index % window - radius;
+    const int dy = index / window - radius;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const std::int32_t u = (work.u[i] + (dx * work.u_x[i] + dy * work.u_y[i])) >> kShift;
+      const std::int32_t v = (work.v[i] + (dx * work.v_x[i] + dy * work.v_y[i])) >> kShift;
+      work.fraction_x[i] = u & (kPositionScale - 1);
+      work.fraction_y[i] = v & (kPositionScale - 1);
+      work.texel_index[i] = (v >> kPositionBits) * stride + (u >> kPositionBits);
     }
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const Rgba* texel = pixels + work.texel_index[i];
+      work.top[i] = texel_pair(texel);
+      work.bottom[i] = texel_pair(texel + stride);
+    }
+    add_samples(work.reference[static_cast<std::size_t>(index)], lanes, shift, work);
   }
 }
 
 /// Adds one neighbor's votes. Same operations as ncc_from_sums().
 [[gnu::always_inline]] inline void vote_for_planes(float threshold, const Workspace& work, PlaneBatch& batch) {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+  const auto lanes = static_cast<std::size_t>(batch.count);
+  for (std::size_t i = 0; i < lanes; ++i) {
     const double samples = work.support_samples[i];
     const double red = work.sum_b[0][i];
     const double green = work.sum_b[1][i];
@@ -144,16 +190,26 @@ struct Workspace {
     float ncc = (covariance * work.inverse_deviation[i]) * reciprocal_sqrt(variance);
     ncc = ncc < 1.0F ? ncc : 1.0F;
     const bool hit = (ncc > threshold) & (work.seen[i] != 0);
-    batch.ncc_sum[i] += hit ? ncc : 0.0F;
-    batch.votes[i] += hit ? 1 : 0;
+    batch.ncc_sum[i] += kept_if(hit, ncc);
+    batch.votes[i] += static_cast<std::int32_t>(hit);
   }
 }
 
-/// Keeps the planes that `left` neighbors more can still make win.
-void drop_losers(const PlaneScorer& scorer, int left, PlaneBatch& batch, Workspace& work) {
+/// Keeps the planes that `left` neighbors more can still make win. As long as some are left, moving the others closer
+/// together must be worth it: with less than a quarter to drop all stay. texels: of a window.
+void drop_losers(const PlaneScorer& scorer, int left, std::size_t texels, PlaneBatch& batch, Workspace& work) {
+  const auto lanes = static_cast<std::size_t>(batch.count);
+  Lanes<char> wins;
+  std::size_t winners = 0;
+  for (std::size_t i = 0; i < lanes; ++i) {
+    wins[i] =
+        static_cast<char>(can_win(batch.ncc_sum[i], batch.votes[i], left, batch.least_confidence[i], scorer.rule));
+    winners += static_cast<std::size_t>(wins[i]);
+  }
+  if (left > 0 && winners > lanes - lanes / 4) return;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-    if (!can_win(batch.ncc_sum[i], batch.votes[i], left, batch.least_confidence[i], scorer.rule)) continue;
+  for (std::size_t i = 0; i < lanes; ++i) {
+    if (wins[i] == 0) continue;
     if (kept != i) {
       batch.x[kept] = batch.x[i];
       batch.y[kept] = batch.y[i];
@@ -163,12 +219,12 @@ void drop_losers(const PlaneScorer& scorer, int left, PlaneBatch& batch, Workspa
       batch.least_confidence[kept] = batch.least_confidence[i];
       batch.ncc_sum[kept] = batch.ncc_sum[i];
       batch.votes[kept] = batch.votes[i];
-      work.reference_index[kept] = work.reference_index[i];
-      for (auto& sum : work.sum_a) sum[kept] = sum[i];
-      work.inverse_deviation[kept] = work.inverse_deviation[i];
-      work.support_samples[kept] = work.support_samples[i];
-      for (auto& channel : work.center) channel[kept] = channel[i];
-      work.max_difference[kept] = work.max_difference[i];
+      if (left > 0) {
+        for (auto& sum : work.sum_a) sum[kept] = sum[i];
+        work.inverse_deviation[kept] = work.inverse_deviation[i];
+        work.support_samples[kept] = work.support_samples[i];
+        for (std::size_t texel = 0; texel < texels; ++texel) work.reference[texel][kept] = work.reference[texel][i];
+      }
     }
     ++kept;
   }
@@ -180,30 +236,17 @@ void drop_losers(const PlaneScorer& scorer, int left, PlaneBatch& batch, Workspa
   const SweepTask& task = scorer.task;
   const int window = task.options.window;
   const int shift = kSampleShift + extra_sample_shift(window);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-    const SupportWindow& support = scorer.windows.at(batch.x[i], batch.y[i]);
-    const Rgba center = task.reference->at(batch.x[i], batch.y[i]);
-    for (std::size_t channel = 0; channel < 3; ++channel) work.sum_a[channel][i] = support.sum[channel];
-    work.inverse_deviation[i] = support.inverse_deviation;
-    work.support_samples[i] = support.samples;
-    const auto sample = [&](std::uint32_t value) {
-      return static_cast<std::int32_t>((value << 16) >> shift) - (1 << (23 - shift));
-    };
-    work.center[0][i] = sample(red_of(center));
-    work.center[1][i] = sample(green_of(center));
-    work.center[2][i] = sample(blue_of(center));
-    work.max_difference[i] = (support.max_difference << 16) >> shift;
-    work.reference_index[i] = batch.y[i] * task.reference->stride() + batch.x[i];
-    batch.ncc_sum[i] = 0.0F;
-    batch.votes[i] = 0;
-  }
+  read_supports(scorer, batch, window, shift, work);
+  std::fill_n(batch.ncc_sum.begin(), batch.count, 0.0F);
+  std::fill_n(batch.votes.begin(), batch.count, 0);
   const int neighbors = task.neighbor_count();
   for (int neighbor = 0; neighbor < neighbors && batch.count > 0; ++neighbor) {
-    place_windows(task, static_cast<std::size_t>(neighbor), batch, window / 2, work);
-    sum_windows(task, static_cast<std::size_t>(neighbor), batch.count, window / 2, shift, work);
+    const auto index = static_cast<std::size_t>(neighbor);
+    place_windows(task, index, batch, window / 2, work);
+    sum_windows(*task.neighbors[index], batch.count, window, shift, work);
     vote_for_planes(scorer.rule.threshold, work, batch);
     samples += static_cast<std::uint64_t>(batch.count) * static_cast<std::uint64_t>(window * window);
-    drop_losers(scorer, neighbors - 1 - neighbor, batch, work);
+    drop_losers(scorer, neighbors - 1 - neighbor, static_cast<std::size_t>(window * window), batch, work);
   }
 }
 

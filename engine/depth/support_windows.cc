@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <vector>
 
 #include "engine/core/exact.h"
 
@@ -13,60 +16,99 @@ namespace {
 
 constexpr int kMaxWindow = 15;
 
-/// The pixels of one window, row by row.
-struct Pixels {
-  std::array<Rgba, kMaxWindow * kMaxWindow> color;
-  std::array<std::int32_t, kMaxWindow * kMaxWindow> difference;  ///< from the center, largest of the channels
-  std::size_t count = 0;
-};
+std::int32_t apart(std::uint32_t a, std::uint32_t b) {
+  return std::abs(static_cast<std::int32_t>(a) - static_cast<std::int32_t>(b));
+}
 
 std::int32_t largest_difference(Rgba a, Rgba b) {
-  const auto difference = [](std::uint32_t left, std::uint32_t right) {
-    return static_cast<std::int32_t>(left > right ? left - right : right - left);
-  };
-  return std::max(
-      {difference(red_of(a), red_of(b)), difference(green_of(a), green_of(b)), difference(blue_of(a), blue_of(b))});
+  return std::max(std::max(apart(red_of(a), red_of(b)), apart(green_of(a), green_of(b))),
+                  apart(blue_of(a), blue_of(b)));
 }
 
-Pixels read_window(const PaddedImage& image, int x, int y, int radius) {
-  Pixels pixels;
+std::int32_t sample_of(std::uint32_t channel, int shift) {
+  return static_cast<std::int32_t>((channel << 16) >> shift) - (1 << (23 - shift));
+}
+
+/// Sums over the pixels of a window that belong to its support.
+struct Sums {
+  std::int32_t sum[3] = {0, 0, 0};
+  std::int32_t squares = 0;
+  std::int32_t samples = 0;
+};
+
+SupportWindow support_of(const Sums& sums, std::int32_t max_difference) {
+  SupportWindow support{};
+  double variance = static_cast<double>(sums.samples) * sums.squares;
+  for (int channel = 0; channel < 3; ++channel) {
+    support.sum[channel] = sums.sum[channel];
+    variance -= static_cast<double>(sums.sum[channel]) * sums.sum[channel];
+  }
+  support.inverse_deviation = reciprocal_sqrt(float_from_integer(variance));
+  support.samples = sums.samples;
+  support.max_difference = max_difference;
+  return support;
+}
+
+/// The fewest samples of a support: 9 of 25.
+std::int32_t least_samples(int window) { return (window * window * 9 + 24) / 25; }
+
+/// The support of the window around (x, y) that has the fewest samples; all that differ as much as the last one of them
+/// belong to it.
+SupportWindow least_support(const PaddedImage& image, int x, int y, int window, int shift) {
+  const int radius = window / 2;
+  std::array<std::int32_t, kMaxWindow* kMaxWindow> difference = {};
   const Rgba center = image.at(x, y);
+  std::size_t count = 0;
+  for (int dy = -radius; dy <= radius; ++dy)
+    for (int dx = -radius; dx <= radius; ++dx)
+      difference[count++] = largest_difference(image.at(x + dx, y + dy), center);
+  std::array<std::int32_t, kMaxWindow* kMaxWindow> sorted = difference;
+  const auto last = sorted.begin() + least_samples(window) - 1;
+  std::nth_element(sorted.begin(), last, sorted.begin() + static_cast<std::ptrdiff_t>(count));
+  Sums sums;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (difference[i] > *last) continue;
+    const Rgba color = image.at(x + static_cast<int>(i) % window - radius, y + static_cast<int>(i) / window - radius);
+    const std::uint32_t channels[3] = {red_of(color), green_of(color), blue_of(color)};
+    for (int channel = 0; channel < 3; ++channel) {
+      const std::int32_t sample = sample_of(channels[channel], shift);
+      sums.sum[channel] += sample;
+      sums.squares += sample * sample;
+    }
+    ++sums.samples;
+  }
+  return support_of(sums, *last);
+}
+
+/// Sums of the windows around the pixels of a row, each as an array, for the compiler to vectorize.
+struct RowSums {
+  std::vector<std::int32_t> sum[3];
+  std::vector<std::int32_t> squares;
+  std::vector<std::int32_t> samples;
+};
+
+/// Sums over the pixels that differ from their window's center by at most the tolerance.
+void sum_row(const PaddedImage& image, int y, int window, int tolerance, int shift, RowSums& row) {
+  const int radius = window / 2;
+  const auto count = static_cast<std::size_t>(image.width - 2 * radius);  // first pixel: radius
+  for (auto* values : {&row.sum[0], &row.sum[1], &row.sum[2], &row.squares, &row.samples}) values->assign(count, 0);
+  const Rgba* center = image.pixels.data() + std::ptrdiff_t{y} * image.stride() + radius;
   for (int dy = -radius; dy <= radius; ++dy) {
     for (int dx = -radius; dx <= radius; ++dx) {
-      const Rgba color = image.at(x + dx, y + dy);
-      pixels.color[pixels.count] = color;
-      pixels.difference[pixels.count++] = largest_difference(color, center);
+      const Rgba* pixel = center + std::ptrdiff_t{dy} * image.stride() + dx;
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::int32_t belongs = (largest_difference(pixel[i], center[i]) - tolerance - 1) >> 31;
+        const std::int32_t red = sample_of(red_of(pixel[i]), shift) & belongs;
+        const std::int32_t green = sample_of(green_of(pixel[i]), shift) & belongs;
+        const std::int32_t blue = sample_of(blue_of(pixel[i]), shift) & belongs;
+        row.sum[0][i] += red;
+        row.sum[1][i] += green;
+        row.sum[2][i] += blue;
+        row.squares[i] += red * red + green * green + blue * blue;
+        row.samples[i] -= belongs;
+      }
     }
   }
-  return pixels;
-}
-
-/// The difference that at least a share of 9 / 25 of the pixels does not exceed.
-std::int32_t least_difference(const Pixels& pixels) {
-  std::array<std::int32_t, kMaxWindow* kMaxWindow> sorted = pixels.difference;
-  const auto last = static_cast<std::ptrdiff_t>((pixels.count * 9 + 24) / 25) - 1;
-  std::nth_element(sorted.begin(), sorted.begin() + last, sorted.begin() + static_cast<std::ptrdiff_t>(pixels.count));
-  return sorted[static_cast<std::size_t>(last)];
-}
-
-SupportWindow sum_support(const Pixels& pixels, std::int32_t max_difference, int shift) {
-  SupportWindow support{};
-  support.max_difference = max_difference;
-  std::int32_t squares = 0;
-  for (std::size_t i = 0; i < pixels.count; ++i) {
-    if (pixels.difference[i] > max_difference) continue;
-    const std::uint32_t channels[3] = {red_of(pixels.color[i]), green_of(pixels.color[i]), blue_of(pixels.color[i])};
-    for (int channel = 0; channel < 3; ++channel) {
-      const std::int32_t sample = static_cast<std::int32_t>((channels[channel] << 16) >> shift) - (1 << (23 - shift));
-      support.sum[channel] += sample;
-      squares += sample * sample;
-    }
-    ++support.samples;
-  }
-  double variance = static_cast<double>(support.samples) * squares;
-  for (const std::int32_t sum : support.sum) variance -= static_cast<double>(sum) * sum;
-  support.inverse_deviation = reciprocal_sqrt(float_from_integer(variance));
-  return support;
 }
 
 }  // namespace
@@ -75,10 +117,16 @@ Grid<SupportWindow> make_support_windows(const PaddedImage& image, int window, i
   const int radius = window / 2;
   const int shift = kSampleShift + extra_sample_shift(window);
   Grid<SupportWindow> windows(image.width, image.height);
+  if (image.width < window) return windows;
   tbb::parallel_for(radius, std::max(image.height - radius, radius), [&](int y) {
-    for (int x = radius; x < image.width - radius; ++x) {
-      const Pixels pixels = read_window(image, x, y, radius);
-      windows.at(x, y) = sum_support(pixels, std::max(tolerance, least_difference(pixels)), shift);
+    thread_local RowSums row;
+    sum_row(image, y, window, tolerance, shift, row);
+    for (std::size_t i = 0; i < row.samples.size(); ++i) {
+      const int x = radius + static_cast<int>(i);
+      windows.at(x, y) =
+          row.samples[i] >= least_samples(window)
+              ? support_of({{row.sum[0][i], row.sum[1][i], row.sum[2][i]}, row.squares[i], row.samples[i]}, tolerance)
+              : least_support(image, x, y, window, shift);
     }
   });
   return windows;
