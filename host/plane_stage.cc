@@ -92,11 +92,13 @@ void PlaneStage::score(const SweepTask& task, const Buffers& buffers) {
   }
 }
 
-void PlaneStage::refine(const SweepTask& task, const Buffers& buffers, const PlaneMove& move, bool ends_round) {
+void PlaneStage::refine(const SweepTask& task, const Buffers& buffers, const PlaneMove& move, int tried,
+                        bool ends_round) {
   const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
   const RefinePlanesParams params{.move = move,
                                   .width = task.ranges.width,
                                   .height = task.ranges.height,
+                                  .tried = tried,
                                   .ends_round = ends_round ? 1 : 0,
                                   .max_tilt = task.max_tilt,
                                   .threshold = rule.threshold,
@@ -111,14 +113,15 @@ Expected<Grid<PixelPlane>> PlaneStage::run(const SweepTask& task, const Grid<Pix
   const auto buffers = upload(task, first_pass);
   if (!buffers) return std::unexpected(buffers.error());
   score(task, *buffers);
-  refine(task, *buffers, {}, true);
+  refine(task, *buffers, {}, 1, true);
   for (const std::vector<PlaneMove>& round : plane_rounds(task.planes, task.options.window)) {
+    int tried = 0;
     for (const PlaneMove& move : round) {
-      refine(task, *buffers, move, false);
+      refine(task, *buffers, move, tried++, false);
       score(task, *buffers);
       if (auto done = commands_->submit(); !done) return std::unexpected(done.error());
     }
-    refine(task, *buffers, {}, true);
+    refine(task, *buffers, {}, tried, true);
   }
   if (auto done = commands_->submit(); !done) return std::unexpected(done.error());
   Grid<PixelPlane> planes(task.ranges.width, task.ranges.height, kNoPlane);

@@ -35,7 +35,7 @@ class PlaneStage {
   Expected<void> prepare_kernel(int window);
   [[nodiscard]] Expected<Buffers> upload(const SweepTask& task, const Grid<PixelVote>& first_pass) const;
   void score(const SweepTask& task, const Buffers& buffers);
-  void refine(const SweepTask& task, const Buffers& buffers, const PlaneMove& move, bool ends_round);
+  void refine(const SweepTask& task, const Buffers& buffers, const PlaneMove& move, int tried, bool ends_round);
 
   const Device* device_;
   Commands* commands_;

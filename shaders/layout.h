@@ -95,7 +95,7 @@ struct PixelPlane {
   float slope_y;
   float correlation;
   float confidence;
-  int changed;  // 1: it was taken in the last round
+  int taken_by;  // number of the move of its round that it was taken by; 0 = not in this round
 };
 QUORUM_SIZE(PixelPlane, 24);
 
@@ -117,15 +117,18 @@ struct InverseDepthRange {
 QUORUM_SIZE(InverseDepthRange, 8);
 
 // How a plane to try comes about: that of the pixel at the offset in the last round, extrapolated, or with offset (0,
-// 0) the pixel's best one so far, with a step.
+// 0) the pixel's best one so far, with a step. Moves of a round have the numbers 1, 2, …
 struct PlaneMove {
   int offset_x;
   int offset_y;
-  float inverse_depth;
+  float inverse_depth;  // the step
   float slope_x;
   float slope_y;
+  float near_depth;  // a plane of another pixel that differs by less from the pixel's own is not tried
+  float near_slope;
+  int undoes;  // number of the move that this one would take back; 0 = none
 };
-QUORUM_SIZE(PlaneMove, 20);
+QUORUM_SIZE(PlaneMove, 32);
 
 // A block of the reference view that is swept on one plane, all its windows together. x, y: its first pixel, a
 // multiple of the block's size, which the kernel knows.
@@ -210,16 +213,17 @@ struct RefinePlanesParams {
   PlaneMove move;
   int width;
   int height;
+  int tried;       // number of the move that made the trials
   int ends_round;  // 1: no trial; the planes of this round become those of the last one
   float max_tilt;  // largest slope, as a share of the inverse depth
   float threshold;
   float confidence_scale;
 };
-QUORUM_SIZE(RefinePlanesParams, 44);
+QUORUM_SIZE(RefinePlanesParams, 60);
 
 // confirm_depths: what one other view's depth map says of the depths of a view.
 struct ConfirmDepthsParams {
-  PlaneWarp warp;        // to the other view
+  PlaneWarp warp;  // to the other view
   int width;
   int height;
   int other_width;       // pixels

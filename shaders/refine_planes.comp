@@ -22,13 +22,14 @@ void main() {
   PixelPlane plane = best[pixel];
   PlaneTrial tried = trials[pixel];
   if (tried.inverse_depth != 0.0) {
-    plane = taken_plane(tried, p.threshold, p.confidence_scale);
+    plane = taken_plane(tried, p.threshold, p.confidence_scale, p.tried);
     best[pixel] = plane;
   }
   PlaneTrial trial = kNoTrial;
   if (p.ends_round != 0) {
-    plane.changed = plane.confidence > last[pixel].confidence ? 1 : 0;
     last[pixel] = plane;
+    plane.taken_by = 0;
+    best[pixel] = plane;
   } else {
     int x = pixel % p.width + p.move.offset_x;
     int y = pixel / p.width + p.move.offset_y;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace quorum {
 
@@ -9,15 +10,17 @@ std::vector<std::vector<PlaneMove>> plane_rounds(const DepthPlanes& planes, int 
   constexpr int kRounds = 3;
   std::vector<std::vector<PlaneMove>> rounds;
   for (int round = 0; round < kRounds; ++round) {
+    const float depth = std::ldexp(planes.step(), -1 - round);
+    const float slope = 2.0F * depth / static_cast<float>(window);
     std::vector<PlaneMove> moves;
     for (const int distance : {1, 3})
       for (const auto& [x, y] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-        moves.push_back({distance * x, distance * y, 0.0F, 0.0F, 0.0F});
-    const float depth = std::ldexp(planes.step(), -1 - round);
-    const float slope = 2.0F * depth / static_cast<float>(window);
-    for (const float sign : {1.0F, -1.0F}) moves.push_back({0, 0, sign * depth, 0.0F, 0.0F});
-    for (const float sign : {1.0F, -1.0F}) moves.push_back({0, 0, 0.0F, sign * slope, 0.0F});
-    for (const float sign : {1.0F, -1.0F}) moves.push_back({0, 0, 0.0F, 0.0F, sign * slope});
+        moves.push_back({distance * x, distance * y, 0.0F, 0.0F, 0.0F, depth, slope, 0});
+    for (const auto& [w, x, y] : {std::tuple{depth, 0.0F, 0.0F}, {0.0F, slope, 0.0F}, {0.0F, 0.0F, slope}}) {
+      moves.push_back({0, 0, w, x, y, 0.0F, 0.0F, 0});
+      const int there = static_cast<int>(moves.size());
+      moves.push_back({0, 0, -w, -x, -y, 0.0F, 0.0F, there});
+    }
     rounds.push_back(std::move(moves));
   }
   return rounds;

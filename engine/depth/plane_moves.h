@@ -1,6 +1,7 @@
 // Which planes a pixel tries, and which it may take. Twins: shaders/lib/plane_moves.glsl.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "engine/camera/camera.h"
@@ -15,7 +16,8 @@ constexpr PixelPlane kNoPlane{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0};
 
 /// The moves of all rounds, in their order. A round tries the planes of the neighbors at distance 1 and 3, then a step
 /// either way in depth and in both slopes. Steps begin with half a step of the first pass, and slopes with what moves
-/// the windows' borders by as much; they halve from round to round. window: side, pixels.
+/// the windows' borders by as much; they halve from round to round. A neighbor's plane within these steps of the
+/// pixel's own is not tried: the steps search there. window: side, pixels.
 std::vector<std::vector<PlaneMove>> plane_rounds(const DepthPlanes& planes, int window);
 
 /// Where the planes of a pixel may cross its ray.
@@ -26,16 +28,23 @@ Grid<InverseDepthRange> inverse_depth_ranges(const Grid<PlaneRange>& ranges, con
 float max_plane_tilt(const Camera& camera);
 
 /// The plane that a move tries at a pixel. best: the pixel's best plane so far. other: the plane of the last round at
-/// the offset. Nothing if there is no such plane, or if it did not change since it was tried.
+/// the offset. Nothing if there is no such plane, if it did not change since it was tried, if it is near the best one,
+/// or if the step would only take back the one before.
 [[gnu::always_inline]] inline PlaneTrial move_plane(const PlaneMove& move, const PixelPlane& best,
                                                     const PixelPlane& other) {
+  constexpr PlaneTrial kNoTrial{0.0F, 0.0F, 0.0F, 0.0F, 0};
   const bool from_neighbor = move.offset_x != 0 || move.offset_y != 0;
   const PixelPlane& from = from_neighbor ? other : best;
-  if (from.inverse_depth == 0.0F || (from_neighbor && from.changed == 0)) return {0.0F, 0.0F, 0.0F, 0.0F, 0};
+  if (from.inverse_depth == 0.0F) return kNoTrial;
+  if (from_neighbor ? from.taken_by == 0 : move.undoes != 0 && from.taken_by == move.undoes) return kNoTrial;
   const float ahead =
       static_cast<float>(move.offset_x) * from.slope_x + static_cast<float>(move.offset_y) * from.slope_y;
-  return {(from.inverse_depth - ahead) + move.inverse_depth, from.slope_x + move.slope_x, from.slope_y + move.slope_y,
-          0.0F, 0};
+  const PlaneTrial trial{(from.inverse_depth - ahead) + move.inverse_depth, from.slope_x + move.slope_x,
+                         from.slope_y + move.slope_y, 0.0F, 0};
+  const bool is_near = std::abs(trial.inverse_depth - best.inverse_depth) < move.near_depth &&
+                       std::abs(trial.slope_x - best.slope_x) < move.near_slope &&
+                       std::abs(trial.slope_y - best.slope_y) < move.near_slope;
+  return from_neighbor && best.inverse_depth != 0.0F && is_near ? kNoTrial : trial;
 }
 
 /// True if a pixel with this range may take the plane.

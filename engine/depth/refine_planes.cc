@@ -28,8 +28,8 @@ struct Refinement {
   std::atomic<std::uint64_t> samples = 0;
 };
 
-/// Scores a batch, and takes the winners.
-void take_winners(PlaneBatch& batch, Refinement& refinement) {
+/// Scores a batch that the move with this number made, and takes the winners.
+void take_winners(int move, PlaneBatch& batch, Refinement& refinement) {
   std::uint64_t samples = 0;
   refinement.trials += static_cast<std::uint64_t>(batch.count);
   score_planes(refinement.scorer, batch, samples);
@@ -37,14 +37,14 @@ void take_winners(PlaneBatch& batch, Refinement& refinement) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
     const PlaneTrial trial{batch.inverse_depth[i], batch.slope_x[i], batch.slope_y[i], batch.ncc_sum[i],
                            batch.votes[i]};
-    refinement.best.at(batch.x[i], batch.y[i]) = taken_plane(trial, refinement.scorer.rule);
+    refinement.best.at(batch.x[i], batch.y[i]) = taken_plane(trial, refinement.scorer.rule, move);
   }
   batch.count = 0;
 }
 
-/// Tries the plane that trial(x, y) gives at every pixel of a tile that may take it.
+/// Tries the plane that trial(x, y) gives at every pixel of a tile that may take it. move: its number.
 template <typename Trial>
-void try_planes(const Tile& tile, const Trial& trial, Refinement& refinement) {
+void try_planes(const Tile& tile, int move, const Trial& trial, Refinement& refinement) {
   thread_local const auto batch = std::make_unique<PlaneBatch>();
   for (int y = tile.y; y < tile.y_end; ++y) {
     for (int x = tile.x; x < tile.x_end; ++x) {
@@ -53,10 +53,10 @@ void try_planes(const Tile& tile, const Trial& trial, Refinement& refinement) {
       const PlaneTrial plane = trial(x, y);
       if (plane.inverse_depth == 0.0F || !may_take(plane, range, refinement.task.max_tilt)) continue;
       batch->add(x, y, plane, refinement.best.at(x, y).confidence);
-      if (batch->full()) take_winners(*batch, refinement);
+      if (batch->full()) take_winners(move, *batch, refinement);
     }
   }
-  take_winners(*batch, refinement);
+  take_winners(move, *batch, refinement);
 }
 
 template <typename Work>
@@ -87,10 +87,8 @@ Eigen::Vector3f plane_normal(const PixelPlane& plane, double x, double y, const 
 
 void end_round(Refinement& refinement) {
   tbb::parallel_for(std::size_t{0}, refinement.best.values.size(), [&](std::size_t pixel) {
-    PixelPlane& last = refinement.last.values[pixel];
-    const bool changed = refinement.best.values[pixel].confidence > last.confidence;
-    last = refinement.best.values[pixel];
-    last.changed = changed ? 1 : 0;
+    refinement.last.values[pixel] = refinement.best.values[pixel];
+    refinement.best.values[pixel].taken_by = 0;
   });
 }
 
@@ -111,11 +109,12 @@ Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& fir
   const Grid<PlaneTrial> fitted = fit_planes(first_pass, task.planes);
   for_each_tile(width, height, cpu, [&](const Tile& tile) {
     try_planes(
-        tile, [&](int x, int y) { return fitted.at(x, y); }, refinement);
+        tile, 1, [&](int x, int y) { return fitted.at(x, y); }, refinement);
   });
   end_round(refinement);
   for (const std::vector<PlaneMove>& round : plane_rounds(task.planes, task.options.window)) {
     for_each_tile(width, height, cpu, [&](const Tile& tile) {
+      int number = 0;
       for (const PlaneMove& move : round) {
         const auto trial = [&](int x, int y) {
           const int other_x = x + move.offset_x;
@@ -123,7 +122,7 @@ Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& fir
           const bool inside = refinement.last.contains(other_x, other_y);
           return move_plane(move, refinement.best.at(x, y), inside ? refinement.last.at(other_x, other_y) : kNoPlane);
         };
-        try_planes(tile, trial, refinement);
+        try_planes(tile, ++number, trial, refinement);
       }
     });
     end_round(refinement);

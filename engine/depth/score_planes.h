@@ -60,14 +60,15 @@ struct PlaneBatch {
   return votes + left >= rule.min_votes && most + (left > 0 ? kMargin : 0.0F) > least_confidence;
 }
 
-/// The plane that a pixel takes from a trial that won. Twin: taken_plane in shaders/lib/plane_moves.glsl.
-[[gnu::always_inline]] inline PixelPlane taken_plane(const PlaneTrial& trial, const VoteRule& rule) {
+/// The plane that a pixel takes from a trial that won. move: number of the one that made it.
+/// Twin: taken_plane in shaders/lib/plane_moves.glsl.
+[[gnu::always_inline]] inline PixelPlane taken_plane(const PlaneTrial& trial, const VoteRule& rule, int move) {
   return {trial.inverse_depth,
           trial.slope_x,
           trial.slope_y,
           trial.ncc_sum * reciprocal(static_cast<float>(trial.votes)),
           confidence_of(trial.ncc_sum, trial.votes, rule),
-          0};
+          move};
 }
 
 /// NCC of the support around reference pixel (x, y) on a plane against one neighbor; kNoNcc where the neighbor does not

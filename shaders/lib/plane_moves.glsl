@@ -6,11 +6,18 @@ PlaneTrial move_plane(PlaneMove move, PixelPlane best, PixelPlane other) {
   bool from_neighbor = move.offset_x != 0 || move.offset_y != 0;
   PixelPlane from = best;
   if (from_neighbor) from = other;
-  if (from.inverse_depth == 0.0 || (from_neighbor && from.changed == 0)) return kNoTrial;
+  if (from.inverse_depth == 0.0) return kNoTrial;
+  if (from_neighbor ? from.taken_by == 0 : move.undoes != 0 && from.taken_by == move.undoes) return kNoTrial;
   precise float ahead = float(move.offset_x) * from.slope_x + float(move.offset_y) * from.slope_y;
   precise float inverse_depth = (from.inverse_depth - ahead) + move.inverse_depth;
   precise float slope_x = from.slope_x + move.slope_x;
   precise float slope_y = from.slope_y + move.slope_y;
+  precise float depth_apart = inverse_depth - best.inverse_depth;
+  precise float apart_x = slope_x - best.slope_x;
+  precise float apart_y = slope_y - best.slope_y;
+  bool is_near =
+      abs(depth_apart) < move.near_depth && abs(apart_x) < move.near_slope && abs(apart_y) < move.near_slope;
+  if (from_neighbor && best.inverse_depth != 0.0 && is_near) return kNoTrial;
   return PlaneTrial(inverse_depth, slope_x, slope_y, 0.0, 0);
 }
 
@@ -33,8 +40,8 @@ bool can_win(float ncc_sum, int votes, int left, float least_confidence, int min
   return votes + left >= min_votes && most > least_confidence;
 }
 
-PixelPlane taken_plane(PlaneTrial trial, float threshold, float confidence_scale) {
+PixelPlane taken_plane(PlaneTrial trial, float threshold, float confidence_scale, int move) {
   precise float correlation = trial.ncc_sum * reciprocal(float(trial.votes));
   return PixelPlane(trial.inverse_depth, trial.slope_x, trial.slope_y, correlation,
-                    confidence_of(trial.ncc_sum, trial.votes, threshold, confidence_scale), 0);
+                    confidence_of(trial.ncc_sum, trial.votes, threshold, confidence_scale), move);
 }

@@ -65,8 +65,9 @@ TEST_F(LayoutParity, ScorePlanesParamsAreReadMemberByMember) {
 TEST_F(LayoutParity, RefinePlanesParamsAreReadMemberByMember) {
   const auto p = numbered<RefinePlanesParams>();
   compare("probe_refine_planes_params", p,
-          words_of(p.move.offset_x, p.move.offset_y, p.move.inverse_depth, p.move.slope_x, p.move.slope_y, p.width,
-                   p.height, p.ends_round, p.max_tilt, p.threshold, p.confidence_scale));
+          words_of(p.move.offset_x, p.move.offset_y, p.move.inverse_depth, p.move.slope_x, p.move.slope_y,
+                   p.move.near_depth, p.move.near_slope, p.move.undoes, p.width, p.height, p.tried, p.ends_round,
+                   p.max_tilt, p.threshold, p.confidence_scale));
 }
 
 TEST_F(LayoutParity, ConfirmDepthsParamsAreReadMemberByMember) {

@@ -27,6 +27,7 @@ class RefinePlanesParity : public ParityTest {
     const RefinePlanesParams params{.move = move,
                                     .width = width,
                                     .height = height,
+                                    .tried = 3,
                                     .ends_round = ends_round ? 1 : 0,
                                     .max_tilt = task.max_tilt,
                                     .threshold = rule.threshold,
@@ -46,13 +47,12 @@ class RefinePlanesParity : public ParityTest {
         if (range.farthest > range.nearest) continue;
         PlaneTrial& trial = trials.at(x, y);
         PixelPlane& plane = best.at(x, y);
-        if (trial.inverse_depth != 0.0F) plane = taken_plane(trial, rule);
+        if (trial.inverse_depth != 0.0F) plane = taken_plane(trial, rule, 3);
         trial = PlaneTrial{};
         if (ends_round) {
-          const bool better = plane.confidence > last.at(x, y).confidence;
           last.at(x, y) = plane;
-          last.at(x, y).changed = better ? 1 : 0;
-          changed += better ? 1 : 0;
+          changed += plane.taken_by != 0 ? 1 : 0;
+          plane.taken_by = 0;
           continue;
         }
         const int other_x = x + move.offset_x;
@@ -74,8 +74,9 @@ class RefinePlanesParity : public ParityTest {
 
 TEST_F(RefinePlanesParity, EveryMoveGivesTheBytesOfTheTwin) {
   unsigned seed = 1;
-  for (const PlaneMove& move : {PlaneMove{-1, 0, 0, 0, 0}, PlaneMove{0, 3, 0, 0, 0}, PlaneMove{0, 0, 1e-3F, 0, 0},
-                                PlaneMove{0, 0, 0, -1e-4F, 0}, PlaneMove{0, 0, 0, 0, 1e-4F}})
+  for (const PlaneMove& move : {PlaneMove{-1, 0, 0, 0, 0, 0, 0, 0}, PlaneMove{0, 3, 0, 0, 0, 0.02F, 5e-3F, 0},
+                                PlaneMove{0, 0, 1e-3F, 0, 0, 0, 0, 0}, PlaneMove{0, 0, 0, -1e-4F, 0, 0, 0, 3},
+                                PlaneMove{0, 0, 0, 0, 1e-4F, 0, 0, 1}})
     compare(move, false, seed++);
   compare({}, true, seed);
 }

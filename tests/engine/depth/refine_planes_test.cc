@@ -164,6 +164,44 @@ TEST(FitPlanes, APlaneIsFoundAndALineIsNot) {
   EXPECT_EQ(fit_planes(line, planes).at(10, 9).inverse_depth, 0.0F);
 }
 
+TEST(PlaneMoves, APlaneNearThePixelsOwnIsNotTried) {
+  const PixelPlane best{1.0F, 0.01F, 0.0F, 0.9F, 0.5F, 0};
+  const PlaneMove move{1, 0, 0.0F, 0.0F, 0.0F, 0.004F, 0.002F, 0};
+  const auto tries = [&](float inverse_depth, float slope_x, float slope_y, int taken_by = 2) {
+    const PixelPlane other{inverse_depth + slope_x, slope_x, slope_y, 0.9F, 0.9F, taken_by};  // one pixel to the right
+    return move_plane(move, best, other).inverse_depth != 0.0F;
+  };
+  EXPECT_FALSE(tries(1.003F, 0.011F, -0.001F));
+  EXPECT_TRUE(tries(1.005F, 0.011F, -0.001F));
+  EXPECT_TRUE(tries(0.995F, 0.01F, 0.0F));
+  EXPECT_TRUE(tries(1.003F, 0.013F, 0.0F));
+  EXPECT_TRUE(tries(1.003F, 0.01F, -0.003F));
+  EXPECT_FALSE(tries(1.005F, 0.011F, -0.001F, 0)) << "did not change";
+  EXPECT_NE(move_plane(move, kNoPlane, {1.0F, 0.01F, 0.0F, 0.9F, 0.9F, 1}).inverse_depth, 0.0F);
+}
+
+TEST(PlaneMoves, AStepIsNotTakenBack) {
+  DepthPlanes planes;
+  for (int i = 0; i < 4; ++i) planes.inverse_depth.push_back(1.0F - 0.01F * static_cast<float>(i));
+  for (const std::vector<PlaneMove>& round : plane_rounds(planes, 5)) {
+    int steps = 0;
+    for (std::size_t i = 0; i < round.size(); ++i) {
+      const PlaneMove& move = round[i];
+      if (move.undoes == 0) continue;
+      ++steps;
+      const PlaneMove& there = round[static_cast<std::size_t>(move.undoes - 1)];
+      EXPECT_EQ(move.undoes, static_cast<int>(i));
+      EXPECT_EQ(move.inverse_depth, -there.inverse_depth);
+      EXPECT_EQ(move.slope_x, -there.slope_x);
+      EXPECT_EQ(move.slope_y, -there.slope_y);
+      EXPECT_EQ(move_plane(move, {1.0F, 0.0F, 0.0F, 0.9F, 0.5F, move.undoes}, kNoPlane).inverse_depth, 0.0F);
+      EXPECT_NE(move_plane(move, {1.0F, 0.0F, 0.0F, 0.9F, 0.5F, 1}, kNoPlane).inverse_depth, 0.0F);
+      EXPECT_NE(move_plane(there, {1.0F, 0.0F, 0.0F, 0.9F, 0.5F, 0}, kNoPlane).inverse_depth, 0.0F);
+    }
+    EXPECT_EQ(steps, 3);
+  }
+}
+
 Grid<PixelPlane> refined(const SweepTask& task, const CpuSweepOptions& cpu = {}) {
   return refine_planes(task, sweep_planes(task, task.ranges, task.planes.refinement, cpu), cpu);
 }

@@ -13,10 +13,14 @@ void main() {
   words[2] = floatBitsToUint(p.move.inverse_depth);
   words[3] = floatBitsToUint(p.move.slope_x);
   words[4] = floatBitsToUint(p.move.slope_y);
-  words[5] = uint(p.width);
-  words[6] = uint(p.height);
-  words[7] = uint(p.ends_round);
-  words[8] = floatBitsToUint(p.max_tilt);
-  words[9] = floatBitsToUint(p.threshold);
-  words[10] = floatBitsToUint(p.confidence_scale);
+  words[5] = floatBitsToUint(p.move.near_depth);
+  words[6] = floatBitsToUint(p.move.near_slope);
+  words[7] = uint(p.move.undoes);
+  words[8] = uint(p.width);
+  words[9] = uint(p.height);
+  words[10] = uint(p.tried);
+  words[11] = uint(p.ends_round);
+  words[12] = floatBitsToUint(p.max_tilt);
+  words[13] = floatBitsToUint(p.threshold);
+  words[14] = floatBitsToUint(p.confidence_scale);
 }
