@@ -167,6 +167,10 @@ void RunArguments::add_depth_options(CLI::App& app) {
   app.add_option("--window", options.sweep.window, "Side of the compared windows, pixels: 3, 5 … 15")
       ->capture_default_str()
       ->group(group);
+  app.add_option("--second-window", options.sweep.second_window,
+                 "Side of larger windows for pixels that find no depth, such as 9 for weak texture; 0: none")
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--window-model", window_model,
                  "slanted: windows lie on the surface; plane: they follow the plane of the tested depth; axis: the "
                  "paper's axis-aligned windows")

@@ -17,6 +17,9 @@ Expected<void> SweepOptions::check() const {
   const auto wrong = [](std::string text) { return failure(ErrorKind::kUsage, std::move(text)); };
   if (window < 3 || window > 15 || window % 2 == 0)
     return wrong(fmt::format("--window {}: give an odd number from 3 to 15", window));
+  if (second_window != 0 && (second_window <= window || second_window > 15 || second_window % 2 == 0))
+    return wrong(fmt::format("--second-window {}: give an odd number above --window {}, up to 15, or 0 for none",
+                             second_window, window));
   if (!(threshold >= 0.0F && threshold <= 0.99F))
     return wrong(fmt::format("--threshold {}: give a number from 0 to 0.99", threshold));
   if (min_votes < 1 || min_votes > 32) return wrong(fmt::format("--min-votes {}: give 1 to 32", min_votes));

@@ -26,6 +26,7 @@ struct SweepOptions {
                              ///< 0 = automatic: 2 if planes are refined after the first pass, else 1
   int refinement = 10;       ///< the second pass samples at 1 / refinement of the step; 1 = no second pass (paper 4.1)
   WindowModel window_model = WindowModel::kSlanted;
+  int second_window = 0;       ///< side of larger windows where these find no depth, odd, up to 15; 0 = none
   int support_tolerance = 15;  ///< of slanted windows, see make_support_windows(), 0..255; 255 = whole windows
 
   /// The step that step_pixels asks for.

@@ -7,6 +7,7 @@
 #include "engine/depth/depth_planes.h"
 #include "engine/depth/plane_moves.h"
 #include "engine/depth/plane_warp.h"
+#include "engine/depth/second_window.h"
 #include "engine/io/image_store.h"
 #include "engine/io/ply.h"
 #include "engine/pipeline/background_thread.h"
@@ -48,6 +49,16 @@ Expected<SweepTask> make_sweep_task(const Scene& scene, int reference, const std
     task.warps.push_back(make_plane_warp(view_at(scene, reference).camera, view_at(scene, neighbor).camera));
   }
   return task;
+}
+
+/// The depth map of a view, with the second window where it is asked for.
+Expected<DepthMap> sweep_view(const SweepTask& task, Backend& backend) {
+  auto map = backend.sweep_depth(task);
+  if (!map || task.options.second_window == 0) return map;
+  const auto second = backend.sweep_depth(make_second_task(task, *map));
+  if (!second) return std::unexpected(second.error());
+  take_missing(*second, *map);
+  return map;
 }
 
 ViewReport report_view(const Scene& scene, int reference, const std::vector<int>& neighbors, const SweepTask& task,
@@ -97,7 +108,8 @@ std::vector<ReferenceView> choose_references(const Scene& scene, const SelectVie
 /// What the depth map of one view takes at most: its task and the next one's, which is read meanwhile, the sweep, and
 /// the maps of the last view, which are written meanwhile.
 std::uint64_t view_bytes(const Scene& scene, const ReconstructOptions& options, const Backend& backend) {
-  constexpr std::uint64_t kWrittenBytes = 56;  // a pixel: four maps, a file's bytes, pictures
+  // A pixel: four maps, a file's bytes, pictures; with a second window the first one's maps and the other's ranges.
+  const std::uint64_t written_bytes = options.sweep.second_window == 0 ? 56 : 56 + 32;
   const auto neighbors = static_cast<std::uint64_t>(options.views.neighbor_count);
   const std::uint64_t task_bytes = 4 * (1 + neighbors) + 8 + 6;  // padded images, ranges; a photograph and its mask
   constexpr std::uint64_t kDistortedBytes = 12;                  // a pixel of a photograph: file, decoded, in color
@@ -110,7 +122,7 @@ std::uint64_t view_bytes(const Scene& scene, const ReconstructOptions& options, 
     pixels = std::max(pixels, area(view.width, view.height));
     distorted_pixels = std::max(distorted_pixels, area(view.photo_width, view.photo_height));
   }
-  return (2 * task_bytes + kWrittenBytes) * pixels + kDistortedBytes * distorted_pixels +
+  return (2 * task_bytes + written_bytes) * pixels + kDistortedBytes * distorted_pixels +
          backend.view_bytes(pixels, options.views.neighbor_count);
 }
 
@@ -159,7 +171,7 @@ Expected<void> compute_depth_maps(const Scene& scene, const ReconstructOptions& 
     Expected<DepthMap> map = failure(ErrorKind::kInput, "");
     {
       const StageTimer timer(report, "sweep_depth");
-      map = backend.sweep_depth(*task);
+      map = sweep_view(*task, backend);
     }
     if (!map) return std::unexpected(map.error().within(name));
     if (map->normal.empty()) map->normal = depth_normals(map->depth, view_at(scene, reference).camera);

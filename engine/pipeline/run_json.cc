@@ -29,6 +29,7 @@ Json json_of(const ReconstructOptions& options) {
           {"min_angle_deg", options.views.min_angle_deg},
           {"max_angle_deg", options.views.max_angle_deg},
           {"window", options.sweep.window},
+          {"second_window", options.sweep.second_window},
           {"window_model", window_model_name(options.sweep.window_model)},
           {"threshold", options.sweep.threshold},
           {"min_votes", options.sweep.min_votes},

@@ -80,6 +80,8 @@ INSTANTIATE_TEST_SUITE_P(Reconstruct, WrongValues,
                                          WrongValue{{"--min-angle", "91"}, "0 to 90"},            //
                                          WrongValue{{"--max-angle", "0"}, "1 to 180"},            //
                                          WrongValue{{"--window", "4"}, "3 to 15"},                //
+                                         WrongValue{{"--second-window", "5"}, "above --window"},  //
+                                         WrongValue{{"--second-window", "8"}, "odd number"},      //
                                          WrongValue{{"--window-model", "disc"}, "axis"},          //
                                          WrongValue{{"--threshold", "1"}, "0 to 0.99"},           //
                                          WrongValue{{"--threshold", "nan"}, "0 to 0.99"},         //
