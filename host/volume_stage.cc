@@ -29,16 +29,30 @@ Expected<VolumeStage> VolumeStage::create(const Device& device, Commands& comman
   if (!collect_blocks) return std::unexpected(collect_blocks.error());
   auto integrate = Kernel::create(device, find_kernel("integrate"));
   if (!integrate) return std::unexpected(integrate.error());
-  return VolumeStage(
-      device, commands,
-      Kernels{std::move(*range_surface), std::move(*weigh_surface), std::move(*collect_blocks), std::move(*integrate)});
+  auto carve_blocks = Kernel::create(device, find_kernel("carve_blocks"));
+  if (!carve_blocks) return std::unexpected(carve_blocks.error());
+  return VolumeStage(device, commands,
+                     Kernels{std::move(*range_surface), std::move(*weigh_surface), std::move(*collect_blocks),
+                             std::move(*integrate), std::move(*carve_blocks)});
 }
 
-void VolumeStage::begin(const VoxelGrid& grid, const FusionOptions& options) {
+Expected<void> VolumeStage::begin(const VoxelGrid& grid, const FusionOptions& options) {
   grid_ = grid;
   fusion_ = options;
   indices_.clear();
   pool_.clear();
+  empty_.clear();
+  if (!options.fill_holes) return {};
+  empty_per_buffer_ =
+      std::min(device_->info().max_storage_buffer_range, device_->info().max_allocation) / sizeof(BlockBits);
+  for (std::size_t first = 0; first < grid_.block_count(); first += empty_per_buffer_) {
+    const std::size_t count = std::min(empty_per_buffer_, grid_.block_count() - first);
+    auto buffer = Buffer::create(*device_, count * sizeof(BlockBits));
+    if (!buffer) return std::unexpected(buffer.error().within("empty voxels"));
+    if (auto filled = buffer->fill_zero(); !filled) return filled;
+    empty_.push_back(std::move(*buffer));
+  }
+  return {};
 }
 
 Expected<VolumeStage::Surface> VolumeStage::record_surface(const FusionView& view) {
@@ -124,6 +138,48 @@ Expected<void> VolumeStage::integrate(const FusionView& view, const std::vector<
     begin = end;
   }
   return {};
+}
+
+Expected<void> VolumeStage::carve_blocks(const FusionView& view) {
+  const int width = view.map.depth.width;
+  const int height = view.map.depth.height;
+  const std::vector<std::uint32_t> list = blocks_in_sight(view.map.depth, view.camera, grid_);
+  if (list.empty()) return {};
+  auto surface = record_surface(view);
+  if (!surface) return std::unexpected(surface.error());
+  IntegrateParams params = make_integrate_params(view.camera, width, height, grid_);
+  commands_->region("carve_blocks");
+  for (std::size_t begin = 0; begin < list.size();) {
+    const std::size_t buffer = list[begin] / empty_per_buffer_;
+    const auto rest = std::span(list).subspan(begin, std::min(kMaxDispatchBlocks, list.size() - begin));
+    const auto end = std::ranges::lower_bound(rest, (buffer + 1) * empty_per_buffer_);
+    const auto part = rest.first(static_cast<std::size_t>(end - rest.begin()));
+    auto list_buffer = Buffer::of(*device_, part);
+    if (!list_buffer) return std::unexpected(list_buffer.error());
+    params.pool_begin = static_cast<int>(buffer * empty_per_buffer_);
+    commands_->dispatch(kernels_.carve_blocks, {static_cast<std::int64_t>(part.size() * sizeof(BlockBits) / 4)}, params,
+                        {surface->depth, surface->cells, surface->weights, *list_buffer, empty_[buffer]});
+    if (auto done = commands_->submit(); !done) return done;
+    begin += part.size();
+  }
+  return {};
+}
+
+Expected<std::vector<BlockBits>> VolumeStage::read_empty() {
+  std::vector<BlockBits> empty;
+  try {
+    empty.resize(grid_.block_count());
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorKind::kMemory, fmt::format("reading empty voxels back needs {} MiB; give a larger --voxel-size",
+                                                   grid_.block_count() * sizeof(BlockBits) >> 20));
+  }
+  for (std::size_t buffer = 0; buffer < empty_.size(); ++buffer) {
+    const std::size_t first = buffer * empty_per_buffer_;
+    const auto part = std::span(empty).subspan(first, std::min(empty_per_buffer_, empty.size() - first));
+    if (auto read = empty_[buffer].download(part); !read) return std::unexpected(read.error());
+  }
+  empty_.clear();
+  return empty;
 }
 
 Expected<BlockPool> VolumeStage::read_blocks() {

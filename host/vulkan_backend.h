@@ -21,8 +21,7 @@ class VulkanBackend : public Backend {
   Expected<DepthMap> sweep_depth(const SweepTask& task) override { return depth_.run(task); }
   Expected<Grid<float>> confirm_depths(const ConfirmTask& task) override { return confirm_.run(task); }
   Expected<void> begin_volume(const VoxelGrid& grid, const FusionOptions& options) override {
-    volume_.begin(grid, options);
-    return {};
+    return volume_.begin(grid, options);
   }
   Expected<std::vector<std::uint32_t>> collect_blocks(const FusionView& view) override {
     return volume_.collect_blocks(view);
@@ -34,6 +33,8 @@ class VulkanBackend : public Backend {
     return volume_.integrate(view, blocks);
   }
   Expected<BlockPool> read_blocks() override { return volume_.read_blocks(); }
+  Expected<void> carve_blocks(const FusionView& view) override { return volume_.carve_blocks(view); }
+  Expected<std::vector<BlockBits>> read_empty() override { return volume_.read_empty(); }
   [[nodiscard]] std::size_t max_blocks(std::uint64_t host_bytes) const override;
   [[nodiscard]] std::uint64_t view_bytes(std::uint64_t pixels, int neighbors) const override;
   [[nodiscard]] std::vector<StageTime> kernel_times() const override;

@@ -269,7 +269,7 @@ struct CollectParams {
 };
 QUORUM_SIZE(CollectParams, 80);
 
-// integrate: adds one range surface to the voxels of the listed blocks.
+// integrate, carve_blocks: one range surface against the voxels of the listed blocks.
 struct IntegrateParams {
   float projection[12];   // (x z, y z, z) of a voxel's center, pixels and depth, from its coordinates in the grid
   float inverse_focal_x;  // 1 / pixels
@@ -281,7 +281,7 @@ struct IntegrateParams {
   int height;
   int list_begin;  // first entry of the block list for this dispatch
   int blocks[2];   // size of the grid along x and y
-  int pool_begin;  // number of the first block in the bound part of the pool
+  int pool_begin;  // number of the first block in the bound part of the pool, or of the grid
 };
 QUORUM_SIZE(IntegrateParams, 92);
 

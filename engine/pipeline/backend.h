@@ -9,6 +9,7 @@
 #include "engine/depth/depth_map.h"
 #include "engine/depth/sweep_task.h"
 #include "engine/image/padded_image.h"
+#include "engine/volume/carve_blocks.h"
 #include "engine/volume/confirm_depths.h"
 #include "engine/volume/fusion_options.h"
 #include "engine/volume/voxel_grid.h"
@@ -74,6 +75,12 @@ class Backend {
   virtual Expected<void> integrate(const FusionView& view, const std::vector<std::uint32_t>& blocks) = 0;
   /// The stored blocks. The device holds none after that.
   virtual Expected<BlockPool> read_blocks() = 0;
+
+  /// Marks the voxels of the grid that the view looks through, in a volume whose holes are to be filled
+  /// (FusionOptions::fill_holes). The view's depth is kBackgroundDepth where nothing is; it needs no image.
+  virtual Expected<void> carve_blocks(const FusionView& view) = 0;
+  /// What was marked, of all blocks of the grid. The device holds nothing of it after that.
+  virtual Expected<std::vector<BlockBits>> read_empty() = 0;
 
   /// Most blocks that fit into this much memory of the host, and into the device's; those read back included.
   [[nodiscard]] virtual std::size_t max_blocks(std::uint64_t host_bytes) const = 0;

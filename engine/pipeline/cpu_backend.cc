@@ -73,6 +73,14 @@ Expected<void> CpuBackend::begin_volume(const VoxelGrid& grid, const FusionOptio
   grid_ = grid;
   fusion_ = options;
   pool_ = {};
+  empty_ = {};
+  if (!options.fill_holes) return {};
+  try {
+    empty_.assign(grid.block_count(), BlockBits{});
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorKind::kMemory, fmt::format("carving needs {} MiB; give a larger --voxel-size",
+                                                   grid.block_count() * sizeof(BlockBits) >> 20));
+  }
   return {};
 }
 
@@ -108,6 +116,18 @@ Expected<void> CpuBackend::integrate(const FusionView& view, const std::vector<s
 }
 
 Expected<BlockPool> CpuBackend::read_blocks() { return std::exchange(pool_, {}); }
+
+Expected<void> CpuBackend::carve_blocks(const FusionView& view) {
+  const Surface surface = make_surface(view);
+  return timed("carve_blocks", [&]() -> Expected<void> {
+    quorum::carve_blocks(
+        {view.map.depth, surface.cells, surface.weights}, blocks_in_sight(view.map.depth, view.camera, grid_),
+        make_integrate_params(view.camera, view.map.depth.width, view.map.depth.height, grid_), options_.simd, empty_);
+    return {};
+  });
+}
+
+Expected<std::vector<BlockBits>> CpuBackend::read_empty() { return std::exchange(empty_, {}); }
 
 std::size_t CpuBackend::max_blocks(std::uint64_t host_bytes) const {
   return host_bytes / (kBlockVoxels * sizeof(Voxel));

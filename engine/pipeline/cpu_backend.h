@@ -18,6 +18,8 @@ class CpuBackend : public Backend {
   Expected<void> allocate_blocks(std::vector<std::uint32_t> indices) override;
   Expected<void> integrate(const FusionView& view, const std::vector<std::uint32_t>& blocks) override;
   Expected<BlockPool> read_blocks() override;
+  Expected<void> carve_blocks(const FusionView& view) override;
+  Expected<std::vector<BlockBits>> read_empty() override;
   [[nodiscard]] std::size_t max_blocks(std::uint64_t host_bytes) const override;
   [[nodiscard]] std::uint64_t view_bytes(std::uint64_t pixels, int neighbors) const override;
   [[nodiscard]] std::vector<StageTime> kernel_times() const override { return times_; }
@@ -40,6 +42,7 @@ class CpuBackend : public Backend {
   VoxelGrid grid_;
   FusionOptions fusion_;
   BlockPool pool_;
+  std::vector<BlockBits> empty_;  // of all blocks of the grid
   std::vector<StageTime> times_;
   SweepCounts counts_;
 };

@@ -20,6 +20,7 @@ struct FusionOptions {
   bool weigh_confidence = true;  ///< a vertex weighs by its confidence
   bool weigh_slant = true;       ///< less at grazing angles
   bool weigh_border = true;      ///< less near borders of its range surface
+  bool fill_holes = false;       ///< close holes by space carving
 
   /// Names the first option that is out of its range, and the range. kUsage.
   [[nodiscard]] Expected<void> check() const;

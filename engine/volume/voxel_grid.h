@@ -48,6 +48,9 @@ struct Voxel {
 };
 static_assert(sizeof(Voxel) == kVoxelWords * 4);
 
+/// One bit for each voxel of a block: bit x + 8 y of word z.
+using BlockBits = std::array<std::uint64_t, kBlockSide>;
+
 /// The stored blocks: kBlockVoxels voxels each, x fastest, in the order of indices, which ascends.
 struct BlockPool {
   std::vector<std::uint32_t> indices;

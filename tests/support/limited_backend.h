@@ -33,6 +33,8 @@ class LimitedBackend : public Backend {
     return inner_.integrate(view, blocks);
   }
   Expected<BlockPool> read_blocks() override { return inner_.read_blocks(); }
+  Expected<void> carve_blocks(const FusionView& view) override { return inner_.carve_blocks(view); }
+  Expected<std::vector<BlockBits>> read_empty() override { return inner_.read_empty(); }
   [[nodiscard]] std::size_t max_blocks(std::uint64_t host_bytes) const override {
     return std::min(most_blocks_, inner_.max_blocks(host_bytes));
   }
