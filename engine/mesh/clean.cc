@@ -22,13 +22,16 @@ std::uint64_t drop_triangles(std::vector<Triangle>& triangles, Predicate is_drop
 /// in which sets were joined.
 class Components {
  public:
-  Components(std::size_t vertices, const std::vector<Triangle>& triangles) : parent_(vertices), triangles_(vertices) {
+  Components(const Mesh& mesh, const std::vector<Triangle>& triangles)
+      : parent_(mesh.vertices.size()), triangles_(mesh.vertices.size()) {
     std::iota(parent_.begin(), parent_.end(), 0U);
     for (const Triangle& triangle : triangles) {
       join(triangle[0], triangle[1]);
       join(triangle[0], triangle[2]);
     }
-    for (const Triangle& triangle : triangles) ++triangles_[find(triangle[0])];
+    for (const Triangle& triangle : triangles)
+      if (std::ranges::all_of(triangle, [&](std::uint32_t v) { return mesh.vertices[v].confidence > 0.0F; }))
+        ++triangles_[find(triangle[0])];
   }
 
   std::uint32_t find(std::uint32_t vertex) {
@@ -36,7 +39,7 @@ class Components {
     return vertex;
   }
 
-  /// Triangles in the component of a vertex.
+  /// Measured triangles in the component of a vertex.
   std::uint64_t size(std::uint32_t vertex) { return triangles_[find(vertex)]; }
 
   /// Representative of the component with the most triangles; of equal ones the lowest. There is at least one vertex.
@@ -52,7 +55,7 @@ class Components {
   }
 
   std::vector<std::uint32_t> parent_;
-  std::vector<std::uint64_t> triangles_;  ///< at representatives: triangles in the component
+  std::vector<std::uint64_t> triangles_;  ///< at representatives: measured triangles in the component
 };
 
 /// The vertices that stay, and triangles that count them anew.
@@ -78,12 +81,12 @@ Expected<void> CleanOptions::check() const {
   return {};
 }
 
-float automatic_min_confidence(const Mesh& mesh, float most) {
+float automatic_min_confidence(const std::vector<Vertex>& vertices, float most) {
   constexpr float kShareOfMedian = 0.125F;
-  if (mesh.vertices.empty()) return 0.0F;
+  if (vertices.empty()) return 0.0F;
   std::vector<float> confidences;
-  confidences.reserve(mesh.vertices.size());
-  for (const Vertex& vertex : mesh.vertices) confidences.push_back(vertex.confidence);
+  confidences.reserve(vertices.size());
+  for (const Vertex& vertex : vertices) confidences.push_back(vertex.confidence);
   const auto middle = confidences.begin() + static_cast<std::ptrdiff_t>(confidences.size() / 2);
   std::nth_element(confidences.begin(), middle, confidences.end());
   return std::min(most, kShareOfMedian * *middle);
@@ -96,7 +99,7 @@ Mesh clean(const Mesh& mesh, const CleanOptions& options, CleanCounts* counts) {
   dropped.low_confidence_triangles =
       drop_triangles(triangles, [&](const Triangle& triangle) { return !std::ranges::all_of(triangle, is_confident); });
 
-  Components components(mesh.vertices.size(), triangles);
+  Components components(mesh, triangles);
   dropped.small_component_triangles = drop_triangles(triangles, [&](const Triangle& triangle) {
     return components.size(triangle[0]) < options.min_component_triangles;
   });

@@ -10,7 +10,7 @@ namespace quorum {
 
 struct CleanOptions {
   float min_confidence = 0;                     ///< a triangle with a corner below this is dropped; >= 0
-  std::uint64_t min_component_triangles = 100;  ///< a component with fewer triangles is dropped; 0 or 1 keeps all
+  std::uint64_t min_component_triangles = 100;  ///< a component with fewer measured triangles is dropped; 0 keeps all
   bool largest_component = false;               ///< keep only the component with the most triangles
 
   /// Names the first option that is out of its range, and the range. kUsage.
@@ -18,9 +18,9 @@ struct CleanOptions {
 };
 
 /// The least confidence that a vertex needs when the user names none: most, or an eighth of the median over the mesh
-/// where that is lower, so that scenes in which every surface is seen by few views keep theirs. 0 for an empty mesh.
+/// where that is lower, so that scenes in which every surface is seen by few views keep theirs. 0 for no vertex.
 /// Chosen by measurement: docs/measurements/fusion_defaults.md.
-float automatic_min_confidence(const Mesh& mesh, float most = 0.045F);
+float automatic_min_confidence(const std::vector<Vertex>& vertices, float most = 0.045F);
 
 /// What was dropped, each item under the first rule that it failed.
 struct CleanCounts {
@@ -32,9 +32,10 @@ struct CleanCounts {
 };
 
 /// Drops triangles with a corner of low confidence, then components (triangles joined by shared vertices) that are too
-/// small, then, if wanted, all components but the largest (of equal ones the one with the lowest vertex index), then
-/// vertices that no triangle uses. What stays keeps its order. A cloud only loses its vertices of low confidence.
-/// counts: if given, receives what was dropped. Empty for an empty mesh. Cannot fail.
+/// small (triangles with a corner of confidence 0, which was filled in, don't count), then, if wanted, all components
+/// but the largest (of equal ones the one with the lowest vertex index), then vertices that no triangle uses. What
+/// stays keeps its order. A cloud only loses its vertices of low confidence. counts: if given, receives what was
+/// dropped. Empty for an empty mesh. Cannot fail.
 Mesh clean(const Mesh& mesh, const CleanOptions& options, CleanCounts* counts = nullptr);
 
 }  // namespace quorum

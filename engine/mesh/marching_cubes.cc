@@ -2,59 +2,14 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <optional>
+#include <limits>
 #include <span>
-#include <utility>
 
 #include "engine/core/check.h"
-#include "engine/mesh/case_table.h"
+#include "engine/mesh/block_cubes.h"
 
 namespace quorum {
 namespace {
-
-constexpr int kSide = kBlockSide + 2;  // a block with one voxel more on each side
-constexpr int kEdgesOfBlock = 3 * kBlockVoxels;
-
-/// Vertices of a block: one bit for each lattice edge (3 * voxel + axis) that starts in it, and the number of the
-/// first.
-struct BlockVertices {
-  std::array<std::uint64_t, kEdgesOfBlock / 64> bits = {};
-  std::uint32_t first = 0;
-  std::uint32_t first_triangle = 0;
-  std::uint32_t triangles = 0;
-
-  [[nodiscard]] std::uint32_t count() const {
-    std::uint32_t total = 0;
-    for (const std::uint64_t word : bits) total += static_cast<std::uint32_t>(std::popcount(word));
-    return total;
-  }
-  [[nodiscard]] std::uint32_t number(int edge) const {
-    const auto word = static_cast<std::size_t>(edge / 64);
-    std::uint32_t rank = first;
-    for (std::size_t before = 0; before < word; ++before)
-      rank += static_cast<std::uint32_t>(std::popcount(bits[before]));
-    return rank + static_cast<std::uint32_t>(std::popcount(bits[word] & ((1ULL << (edge % 64)) - 1)));
-  }
-};
-
-/// Place of a block in the ascending list, or -1 if it is not stored.
-std::int64_t find_block(const std::vector<std::uint32_t>& indices, const VoxelGrid& grid, int x, int y, int z) {
-  if (x < 0 || y < 0 || z < 0 || x >= grid.blocks[0] || y >= grid.blocks[1] || z >= grid.blocks[2]) return -1;
-  const std::uint32_t index = grid.block_index(x, y, z);
-  const auto found = std::lower_bound(indices.begin(), indices.end(), index);
-  return found != indices.end() && *found == index ? found - indices.begin() : -1;
-}
-
-template <typename Visit>
-void for_each_voxel(Visit visit) {
-  for (int z = 0; z < kBlockSide; ++z)
-    for (int y = 0; y < kBlockSide; ++y)
-      for (int x = 0; x < kBlockSide; ++x) visit(x, y, z, x + kBlockSide * (y + kBlockSide * z));
-}
 
 /// The voxels of a block, and those one further along each axis, in the blocks that lie there.
 class BlockVoxels {
@@ -95,6 +50,12 @@ class BlockVoxels {
     return result;
   }
 
+  void weights(std::span<std::uint16_t> result) const {
+    for (std::size_t local = 0; local < result.size(); ++local)
+      result[local] = static_cast<std::uint16_t>(
+          std::min(voxels_[local].weight, std::int32_t{std::numeric_limits<std::uint16_t>::max()}));
+  }
+
   /// Coordinates of the block's first voxel in the lattice.
   [[nodiscard]] std::array<int, 3> origin() const {
     return {block_[0] * kBlockSide, block_[1] * kBlockSide, block_[2] * kBlockSide};
@@ -108,64 +69,6 @@ class BlockVoxels {
   std::array<int, 3> block_;
   const Voxel* voxels_;
   const Voxel* next_[3];
-};
-
-/// What is known of a block and the voxels around it, coordinates -1..8.
-class Neighborhood {
- public:
-  Neighborhood(const std::vector<std::uint32_t>& indices, const std::vector<BlockSigns>& signs, const VoxelGrid& grid,
-               std::size_t slot) {
-    const auto [x, y, z] = grid.block_position(indices[slot]);
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
-          slots_[neighbor_index(dx, dy, dz)] = find_block(indices, grid, x + dx, y + dy, z + dz);
-    for (int vz = -1; vz <= kBlockSide; ++vz)
-      for (int vy = -1; vy <= kBlockSide; ++vy)
-        for (int vx = -1; vx <= kBlockSide; ++vx) voxels_[voxel_index(vx, vy, vz)] = load(signs, vx, vy, vz);
-  }
-
-  [[nodiscard]] bool seen(int x, int y, int z) const { return voxels_[voxel_index(x, y, z)] != kUnseen; }
-  /// False if it was not seen.
-  [[nodiscard]] bool inside(int x, int y, int z) const { return voxels_[voxel_index(x, y, z)] == kInside; }
-
-  /// Inside flags of the cube that starts at these coordinates (-1..7), or nothing if a corner was not seen.
-  [[nodiscard]] std::optional<int> cube_case(int x, int y, int z) const {
-    int corners = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      const State state = voxels_[voxel_index(x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2))];
-      if (state == kUnseen) return std::nullopt;
-      if (state == kInside) corners |= 1 << corner;
-    }
-    return corners;
-  }
-
-  /// Slot of the block that holds these coordinates.
-  [[nodiscard]] std::size_t slot_of(int x, int y, int z) const {
-    return static_cast<std::size_t>(slots_[neighbor_index(x >> 3, y >> 3, z >> 3)]);
-  }
-
- private:
-  enum State : std::uint8_t { kUnseen, kOutside, kInside };
-
-  static std::size_t neighbor_index(int dx, int dy, int dz) {
-    return static_cast<std::size_t>(dx + 1 + 3 * (dy + 1 + 3 * (dz + 1)));
-  }
-  static std::size_t voxel_index(int x, int y, int z) {
-    return static_cast<std::size_t>(x + 1 + kSide * (y + 1 + kSide * (z + 1)));
-  }
-  [[nodiscard]] State load(const std::vector<BlockSigns>& signs, int x, int y, int z) const {
-    const std::int64_t slot = slots_[neighbor_index(x >> 3, y >> 3, z >> 3)];
-    if (slot < 0) return kUnseen;
-    const BlockSigns& block = signs[static_cast<std::size_t>(slot)];
-    const auto word = static_cast<std::size_t>(z & 7);
-    const int bit = (x & 7) + kBlockSide * (y & 7);
-    if ((block.seen[word] >> bit & 1) == 0) return kUnseen;
-    return (block.inside[word] >> bit & 1) != 0 ? kInside : kOutside;
-  }
-
-  std::array<std::int64_t, 27> slots_ = {};
-  std::array<State, kSide* kSide* kSide> voxels_ = {};
 };
 
 /// Which lattice edges of the block carry a vertex (one of the four cubes around is seen whole, and the sign changes),
@@ -232,94 +135,61 @@ Vertex make_vertex(const Voxel& from, const Voxel& to, const Eigen::Vector3d& po
   return vertex;
 }
 
-void write_triangles(const Neighborhood& around, std::size_t slot, const std::vector<BlockVertices>& blocks,
-                     Mesh& mesh) {
-  std::uint32_t next_triangle = blocks[slot].first_triangle;
-  for_each_voxel([&](int x, int y, int z, int) {
-    const auto cube = around.cube_case(x, y, z);
-    if (!cube) return;
-    for (const auto& triangle : case_table()[static_cast<std::size_t>(*cube)]) {
-      std::array<std::uint32_t, 3> corners;
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        const CubeEdge& edge = cube_edges()[triangle[corner]];
-        const int ex = x + (edge.corner & 1);
-        const int ey = y + (edge.corner >> 1 & 1);
-        const int ez = z + (edge.corner >> 2);
-        const int local = (ex & 7) + kBlockSide * ((ey & 7) + kBlockSide * (ez & 7));
-        corners[corner] = blocks[around.slot_of(ex, ey, ez)].number(3 * local + edge.axis);
-      }
-      mesh.triangles[next_triangle++] = corners;
-    }
-  });
-}
-
-/// Normals as area-weighted means over the triangles around each vertex, added in the order of the triangles.
-void add_normals(Mesh& mesh) {
-  std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
-  const auto position = [&](std::uint32_t vertex) -> Eigen::Vector3d {
-    return mesh.vertices[vertex].position.cast<double>();
-  };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d normal = (position(b) - position(a)).cross(position(c) - position(a));
-    for (const std::uint32_t corner : {a, b, c}) normals[corner] += normal;
-  }
-  for (std::size_t vertex = 0; vertex < normals.size(); ++vertex) {
-    const double length = normals[vertex].norm();
-    if (length > 0) mesh.vertices[vertex].normal = (normals[vertex] / length).cast<float>();
-  }
-}
-
 }  // namespace
 
 void MarchingCubes::add(const BlockPool& pool, std::size_t count) {
   QUORUM_CHECK_LE(count, pool.indices.size());
-  if (count == 0) return;
-  if (!indices_.empty()) QUORUM_CHECK_LT(indices_.back(), pool.indices.front());
-  const std::size_t first_block = indices_.size();
-  indices_.insert(indices_.end(), pool.indices.begin(), pool.indices.begin() + static_cast<std::ptrdiff_t>(count));
-  signs_.resize(indices_.size());
-  first_vertex_.resize(indices_.size());
+  MeasuredSurface& s = surface_;
+  const std::size_t first_block = s.indices.size();
+  s.indices.insert(s.indices.end(), pool.indices.begin(), pool.indices.begin() + static_cast<std::ptrdiff_t>(count));
+  s.signs.resize(s.indices.size());
+  s.first_vertex.resize(s.indices.size());
+  if (keeps_weights_) s.weights.resize(s.indices.size() * kBlockVoxels);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t slot) {
-    const BlockVoxels block(pool, grid_, slot);
-    signs_[first_block + slot] = block.signs();
+    const BlockVoxels block(pool, s.grid, slot);
+    s.signs[first_block + slot] = block.signs();
+    if (keeps_weights_) block.weights(std::span(s.weights).subspan((first_block + slot) * kBlockVoxels, kBlockVoxels));
     std::size_t crossings = 0;
     block.for_each_crossing([&](const Voxel&, const Voxel&, int, int, int, int) { ++crossings; });
-    first_vertex_[first_block + slot] = crossings;
+    s.first_vertex[first_block + slot] = crossings;
   });
-  std::size_t vertex_count = vertices_.size();
-  for (std::size_t block = first_block; block < indices_.size(); ++block)
-    vertex_count += std::exchange(first_vertex_[block], vertex_count);
-  vertices_.resize(vertex_count);
+  std::size_t vertex_count = s.vertices.size();
+  for (std::size_t block = first_block; block < s.indices.size(); ++block)
+    vertex_count += std::exchange(s.first_vertex[block], vertex_count);
+  s.vertices.resize(vertex_count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t slot) {
-    const BlockVoxels block(pool, grid_, slot);
+    const BlockVoxels block(pool, s.grid, slot);
     const auto [block_x, block_y, block_z] = block.origin();
-    std::size_t next = first_vertex_[first_block + slot];
+    std::size_t next = s.first_vertex[first_block + slot];
     block.for_each_crossing([&](const Voxel& from, const Voxel& to, int x, int y, int z, int axis) {
       const Eigen::Vector3d position =
-          grid_.origin + grid_.voxel_size * Eigen::Vector3d(block_x + x, block_y + y, block_z + z);
-      vertices_[next++] = make_vertex(from, to, position, grid_.voxel_size, axis);
+          s.grid.origin + s.grid.voxel_size * Eigen::Vector3d(block_x + x, block_y + y, block_z + z);
+      s.vertices[next++] = make_vertex(from, to, position, s.grid.voxel_size, axis);
     });
   });
 }
 
 Mesh MarchingCubes::finish() {
-  std::vector<BlockVertices> blocks(indices_.size());
-  std::vector<char> used(vertices_.size());
+  const MeasuredSurface& s = surface_;
+  const auto neighborhood = [&s](std::size_t slot) {
+    return Neighborhood(s.indices, s.grid, slot,
+                        [&s](std::int64_t of, const std::array<int, 3>&, std::size_t word, int bit) {
+                          if (of < 0) return VoxelState::kUnseen;
+                          const BlockSigns& block = s.signs[static_cast<std::size_t>(of)];
+                          if ((block.seen[word] >> bit & 1) == 0) return VoxelState::kUnseen;
+                          return (block.inside[word] >> bit & 1) != 0 ? VoxelState::kInside : VoxelState::kOutside;
+                        });
+  };
+  std::vector<BlockVertices> blocks(s.indices.size());
+  std::vector<char> used(s.vertices.size());
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t slot) {
-    const std::size_t end = slot + 1 < blocks.size() ? first_vertex_[slot + 1] : used.size();
-    blocks[slot] = count_block(Neighborhood(indices_, signs_, grid_, slot),
-                               std::span(used).subspan(first_vertex_[slot], end - first_vertex_[slot]));
+    const std::size_t end = slot + 1 < blocks.size() ? s.first_vertex[slot + 1] : used.size();
+    blocks[slot] =
+        count_block(neighborhood(slot), std::span(used).subspan(s.first_vertex[slot], end - s.first_vertex[slot]));
   });
-  std::uint32_t vertex_count = 0;
-  std::uint32_t triangle_count = 0;
-  for (BlockVertices& block : blocks) {
-    block.first = vertex_count;
-    block.first_triangle = triangle_count;
-    vertex_count += block.count();
-    triangle_count += block.triangles;
-  }
+  const auto [vertex_count, triangle_count] = number_blocks(blocks);
   Mesh mesh;
-  mesh.vertices = std::exchange(vertices_, {});
+  mesh.vertices = std::exchange(surface_.vertices, {});
   std::size_t kept = 0;
   for (std::size_t vertex = 0; vertex < used.size(); ++vertex)
     if (used[vertex] != 0) mesh.vertices[kept++] = mesh.vertices[vertex];
@@ -327,7 +197,7 @@ Mesh MarchingCubes::finish() {
   QUORUM_CHECK_EQ(mesh.vertices.size(), vertex_count);
   mesh.triangles.resize(triangle_count);
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t slot) {
-    if (blocks[slot].triangles > 0) write_triangles(Neighborhood(indices_, signs_, grid_, slot), slot, blocks, mesh);
+    if (blocks[slot].triangles > 0) write_triangles(neighborhood(slot), slot, blocks, mesh);
   });
   add_normals(mesh);
   return mesh;

@@ -1,16 +1,28 @@
 // The surface at signed distance zero in the voxel blocks (Lorensen and Cline 1987; the paper, section 2.2).
 #pragma once
 
+#include <utility>
+
 #include "engine/mesh/mesh.h"
 #include "engine/volume/voxel_grid.h"
 
 namespace quorum {
 
-/// Of each voxel of a block whether it was seen, and whether it lies inside (signed distance below zero). Bit x + 8 y
-/// of word z. Cubes, triangles and the numbers of vertices follow from these bits alone.
+/// Of each voxel of a block whether it was seen, and whether it lies inside (signed distance below zero). Cubes,
+/// triangles and the numbers of vertices follow from these bits alone.
 struct BlockSigns {
-  std::array<std::uint64_t, kBlockSide> seen = {};
-  std::array<std::uint64_t, kBlockSide> inside = {};
+  BlockBits seen = {};
+  BlockBits inside = {};
+};
+
+/// What is kept of the volume.
+struct MeasuredSurface {
+  VoxelGrid grid;
+  std::vector<std::uint32_t> indices;     ///< of the blocks, ascending
+  std::vector<BlockSigns> signs;          ///< of each block
+  std::vector<std::size_t> first_vertex;  ///< of each block, in vertices
+  std::vector<Vertex> vertices;           ///< of all edges between seen voxels of different sign
+  std::vector<std::uint16_t> weights;     ///< of each voxel of each block, cut at the largest; only if asked for
 };
 
 /// Triangles in every cube whose eight corners were all seen (weight above 0); what was not seen stays open. Vertices
@@ -23,24 +35,26 @@ struct BlockSigns {
 /// for any parts.
 class MarchingCubes {
  public:
-  explicit MarchingCubes(const VoxelGrid& grid) : grid_(grid) {}
+  /// keeps_weights: for a surface whose holes are filled.
+  explicit MarchingCubes(const VoxelGrid& grid, bool keeps_weights = false) : keeps_weights_(keeps_weights) {
+    surface_.grid = grid;
+  }
 
   /// Takes the first count blocks of the pool, which follow those taken before. The pool also holds, of the stored
   /// blocks that lie one further along x, y or z, those that were not taken yet.
   void add(const BlockPool& pool, std::size_t count);
 
   /// Vertices so far; a few of them may be in no triangle and will be left out.
-  [[nodiscard]] std::size_t vertex_count() const { return vertices_.size(); }
+  [[nodiscard]] const std::vector<Vertex>& vertices() const { return surface_.vertices; }
 
   /// The surface of all blocks that were added; the object is used up.
   Mesh finish();
+  /// The same before triangles are made, for FilledSurface; the object is used up.
+  MeasuredSurface take() { return std::move(surface_); }
 
  private:
-  VoxelGrid grid_;
-  std::vector<std::uint32_t> indices_;     // of the blocks, ascending
-  std::vector<BlockSigns> signs_;          // of each block
-  std::vector<std::size_t> first_vertex_;  // of each block, in vertices_
-  std::vector<Vertex> vertices_;           // of all edges between seen voxels of different sign
+  bool keeps_weights_;
+  MeasuredSurface surface_;
 };
 
 /// The same for a volume that lies in memory.

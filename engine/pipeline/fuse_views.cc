@@ -4,7 +4,7 @@
 #include <iterator>
 #include <numeric>
 
-#include "engine/mesh/marching_cubes.h"
+#include "engine/mesh/fill_holes.h"
 #include "engine/pipeline/background_thread.h"
 #include "engine/volume/slabs.h"
 
@@ -12,7 +12,11 @@ namespace quorum {
 namespace {
 
 constexpr std::uint64_t kVoxelBytes = kBlockVoxels * sizeof(Voxel);  // of a block
-constexpr std::uint64_t kSurfaceBytes = 1280;  // of a block: signs, and room for 32 vertices; a scan has some 16
+
+/// Of a block: signs, and room for 32 vertices; a scan has some 16. If holes are filled, weights.
+std::uint64_t surface_bytes(const FusionInput& input) {
+  return 1280 + (input.options.fill_holes ? kBlockVoxels * sizeof(std::uint16_t) : 0);
+}
 
 /// Indices of blocks, ascending.
 using Blocks = std::vector<std::uint32_t>;
@@ -20,6 +24,7 @@ using Blocks = std::vector<std::uint32_t>;
 struct CollectedBlocks {
   std::vector<Blocks> of_view;
   Blocks all;
+  bool background = false;  ///< that carving saw
 };
 
 /// What a view takes while it is merged: its maps and photograph, and the next view's, which are read meanwhile; a bit
@@ -34,6 +39,20 @@ std::uint64_t view_bytes(const FusionInput& input) {
   return 2 * kInputBytes * pixels + input.backend.view_bytes(pixels, 0) + input.grid.block_count() / 4;
 }
 
+/// A bit for each voxel of the grid; none if holes are not filled.
+std::uint64_t empty_bytes(const FusionInput& input) {
+  return input.options.fill_holes ? sizeof(BlockBits) * input.grid.block_count() : 0;
+}
+
+/// Sets kBackgroundDepth where the mask leaves pixels out and no depth was found.
+Expected<void> mark_background(const FusionInput& input, int view, Grid<float>& depth) {
+  const auto mask = input.images.mask(view);
+  if (!mask) return std::unexpected(mask.error());
+  for (std::size_t pixel = 0; pixel < (*mask)->values.size(); ++pixel)
+    if ((*mask)->values[pixel] == 0 && depth.values[pixel] <= 0.0F) depth.values[pixel] = kBackgroundDepth;
+  return {};
+}
+
 /// What is read of a view.
 struct LoadedView {
   DepthMap map;
@@ -41,7 +60,7 @@ struct LoadedView {
 };
 
 /// Calls use(place, map, image) for the given places in input.views, in order, while the next view is read. The image
-/// is empty if none is wanted.
+/// is empty if none is wanted; then, if holes are filled, depths tell the background.
 template <typename Use>
 Expected<void> for_each_view(const FusionInput& input, const std::vector<std::size_t>& places, bool with_image,
                              const Use& use) {
@@ -56,7 +75,11 @@ Expected<void> for_each_view(const FusionInput& input, const std::vector<std::si
         if (!certainty) return std::unexpected(certainty.error());
         map->confidence = std::move(*certainty);
       }
-      if (!with_image) return LoadedView{std::move(*map), {}};
+      if (!with_image) {
+        if (input.options.fill_holes)
+          if (auto marked = mark_background(input, index, map->depth); !marked) return std::unexpected(marked.error());
+        return LoadedView{std::move(*map), {}};
+      }
       const auto image = input.images.image(index);
       if (!image) return std::unexpected(image.error());
       return LoadedView{std::move(*map), pad_image(**image)};
@@ -78,7 +101,7 @@ Expected<void> for_each_view(const FusionInput& input, const std::vector<std::si
   return {};
 }
 
-/// The blocks near the surface of each view.
+/// The blocks near the surface of each view. If holes are filled, each view marks what it looks through, too.
 Expected<CollectedBlocks> collect_blocks(const FusionInput& input) {
   const StageTimer timer(input.report, "collect_blocks");
   input.progress.stage("finding voxel blocks", static_cast<int>(input.views.size()));
@@ -94,7 +117,9 @@ Expected<CollectedBlocks> collect_blocks(const FusionInput& input) {
     collected.all = std::move(merged);
     input.report.block_views += blocks->size();
     collected.of_view.push_back(std::move(*blocks));
-    return {};
+    if (!input.options.fill_holes) return {};
+    collected.background = collected.background || std::ranges::count(view.map.depth.values, kBackgroundDepth) > 0;
+    return input.backend.carve_blocks(view);
   });
   if (!done) return std::unexpected(done.error());
   input.report.blocks = collected.all.size();
@@ -126,24 +151,61 @@ Expected<BlockPool> fill_slab(const FusionInput& input, const CollectedBlocks& c
 /// The largest slab from block `first` on that the budget holds now.
 Expected<Slab> next_slab(const FusionInput& input, const Blocks& blocks, std::size_t first) {
   const std::uint64_t view = view_bytes(input);
-  const auto voxel_room = [&](std::uint64_t room) { return room / (kVoxelBytes + kSurfaceBytes) * kVoxelBytes; };
-  std::uint64_t least = kLeastSlabBlocks * (kVoxelBytes + kSurfaceBytes);
+  const std::uint64_t surface = surface_bytes(input);
+  const auto voxel_room = [&](std::uint64_t room) { return room / (kVoxelBytes + surface) * kVoxelBytes; };
+  std::uint64_t least = kLeastSlabBlocks * (kVoxelBytes + surface);
   while (input.backend.max_blocks(voxel_room(least)) < kLeastSlabBlocks) least *= 2;
   if (auto fits = input.budget.require(view + least, "merging depth maps"); !fits) return std::unexpected(fits.error());
   const std::uint64_t room = std::max(input.budget.left(), view + least) - view;
   return make_slab(blocks, first, input.grid, input.backend.max_blocks(voxel_room(room)));
 }
 
+// Of a vertex: numbers, two triangles and their copy, a normal in double, components, the cleaned vertex.
+constexpr std::uint64_t kVertexBytes = 120;
+constexpr std::uint64_t kBlockBytes = 212;
+
+/// The surface without holes.
+Expected<Mesh> extract_filled(const FusionInput& input, MarchingCubes& cubes, EmptySpace empty) {
+  // While free space is looked for: the voxels that are wide enough, those that are free, and a copy.
+  if (auto fits = input.budget.require(3 * empty_bytes(input), "filling holes"); !fits)
+    return std::unexpected(fits.error());
+  const float least = input.min_confidence(cubes.vertices());
+  FilledSurface surface(cubes.take(), std::move(empty), least);
+  // Of a vertex: itself, two triangles, its patch.
+  constexpr std::uint64_t kExtractedBytes = 72;
+  if (auto fits = input.budget.require(kExtractedBytes * surface.vertex_count() + kBlockBytes * surface.block_count(),
+                                       "the mesh");
+      !fits)
+    return std::unexpected(fits.error());
+  Mesh mesh = surface.extract();
+  // What cleaning takes, and before it colors, positions and their sums in double, triangles around.
+  constexpr std::uint64_t kSettledBytes = kVertexBytes + 64;
+  if (auto fits = input.budget.require(kSettledBytes * mesh.vertices.size(), "the mesh"); !fits)
+    return std::unexpected(fits.error());
+  settle_filled(mesh);
+  return mesh;
+}
+
 }  // namespace
 
 Expected<Mesh> fuse_views(const FusionInput& input) {
-  if (auto fits = input.budget.require(view_bytes(input), "finding voxel blocks"); !fits)
+  // Bits of empty voxels are there twice while they are read back, and four times while holes are filled.
+  if (auto fits = input.budget.require(view_bytes(input) + 4 * empty_bytes(input), "finding voxel blocks"); !fits)
     return std::unexpected(fits.error());
   if (auto begun = input.backend.begin_volume(input.grid, input.options); !begun) return std::unexpected(begun.error());
   const auto collected = collect_blocks(input);
   if (!collected) return std::unexpected(collected.error());
 
-  MarchingCubes surface(input.grid);
+  EmptySpace empty;
+  if (input.options.fill_holes) {
+    auto read = input.backend.read_empty();
+    if (!read) return std::unexpected(read.error());
+    empty.voxels = std::move(*read);
+    empty.beyond_grid = collected->background;
+    for (const int view : input.views)
+      empty.cameras.push_back(input.scene.views[static_cast<std::size_t>(view)].camera.center());
+  }
+  MarchingCubes surface(input.grid, input.options.fill_holes);
   for (std::size_t first = 0; first < collected->all.size();) {
     const auto slab = next_slab(input, collected->all, first);
     if (!slab) return std::unexpected(slab.error());
@@ -154,15 +216,13 @@ Expected<Mesh> fuse_views(const FusionInput& input) {
     first += slab->core_count;
     ++input.report.slabs;
   }
-  // Of a vertex: numbers, two triangles and their copy, a normal in double, components, the cleaned vertex.
-  constexpr std::uint64_t kVertexBytes = 120;
-  constexpr std::uint64_t kBlockBytes = 212;
-  if (auto fits =
-          input.budget.require(kVertexBytes * surface.vertex_count() + kBlockBytes * collected->all.size(), "the mesh");
-      !fits)
-    return std::unexpected(fits.error());
   const StageTimer timer(input.report, "marching_cubes");
   input.progress.stage("extracting the mesh", 1);
+  if (input.options.fill_holes) return extract_filled(input, surface, std::move(empty));
+  if (auto fits = input.budget.require(kVertexBytes * surface.vertices().size() + kBlockBytes * collected->all.size(),
+                                       "the mesh");
+      !fits)
+    return std::unexpected(fits.error());
   return surface.finish();
 }
 

@@ -2,6 +2,7 @@
 // volume is larger than the memory.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "engine/io/image_store.h"
@@ -28,9 +29,12 @@ struct FusionInput {
   Progress& progress;
   RunReport& report;
   bool confirmed = false;  ///< weigh by the certainty of depths, which the workspace holds, in place of conf(d)
+  /// If holes are filled (FusionOptions::fill_holes): the least confidence of what was measured, from all vertices.
+  std::function<float(const std::vector<Vertex>&)> min_confidence = [](const std::vector<Vertex>&) { return 0.0F; };
 };
 
-/// The surface that the views agree on, before cleaning; the same mesh for any budget. Fails (kInput) if a file does
+/// The surface that the views agree on, before cleaning; the same mesh for any budget. If holes are filled, they are,
+/// and nothing of less than the least confidence is left but what was filled in. Fails (kInput) if a file does
 /// not fit its view, (kMemory) if the budget does not hold the smallest slab or the mesh, as the backend does, or
 /// (kStopped).
 Expected<Mesh> fuse_views(const FusionInput& input);

@@ -10,6 +10,7 @@
 #include "engine/depth/second_window.h"
 #include "engine/io/image_store.h"
 #include "engine/io/ply.h"
+#include "engine/mesh/fill_holes.h"
 #include "engine/pipeline/background_thread.h"
 #include "engine/pipeline/confirm_views.h"
 #include "engine/pipeline/fuse_views.h"
@@ -215,22 +216,31 @@ Expected<void> fuse_depth_maps(const Scene& scene, const ReconstructOptions& opt
   }
   const MemoryBudget budget(options.memory_bytes);
   report.memory_budget_bytes = budget.bytes();
-  ImageStore images(scene, 0, 0.0);  // a slab takes each photograph once, and the memory is better spent on large slabs
-  auto extracted = fuse_views(
-      {scene, views, *grid, options.fusion, workspace, budget, backend, images, progress, report, options.confirm});
+  // A slab takes each photograph once, and the memory is better spent on large slabs.
+  ImageStore images(scene, 0, options.mask_below);
+  FusionInput input{scene,   views,  *grid,    options.fusion, workspace,       budget,
+                    backend, images, progress, report,         options.confirm, {}};
+  const auto min_confidence = [&](const std::vector<Vertex>& vertices) {
+    constexpr float kConfirmed = 0.035F;  // docs/quality.md; without confirmation the default
+    report.min_confidence = !options.automatic_confidence ? options.clean.min_confidence
+                            : options.confirm             ? automatic_min_confidence(vertices, kConfirmed)
+                                                          : automatic_min_confidence(vertices);
+    return report.min_confidence;
+  };
+  input.min_confidence = min_confidence;
+  auto extracted = fuse_views(input);
   if (!extracted) return std::unexpected(extracted.error());
   Mesh mesh = std::move(*extracted);
   report.extracted_triangles = mesh.triangles.size();
   {
     const StageTimer timer(report, "clean");
     CleanOptions rules = options.clean;
-    constexpr float kConfirmed = 0.035F;  // docs/quality.md; without confirmation the default
-    if (options.automatic_confidence)
-      rules.min_confidence =
-          options.confirm ? automatic_min_confidence(mesh, kConfirmed) : automatic_min_confidence(mesh);
-    report.min_confidence = rules.min_confidence;
+    // What is left after filling is confident enough, or filled in, with confidence 0.
+    rules.min_confidence = options.fusion.fill_holes ? 0.0F : min_confidence(mesh.vertices);
     mesh = clean(mesh, rules);
   }
+  report.filled_vertices =
+      options.fusion.fill_holes ? static_cast<std::uint64_t>(std::ranges::count_if(mesh.vertices, is_filled)) : 0;
   report.vertices = mesh.vertices.size();
   report.triangles = mesh.triangles.size();
   if (mesh.triangles.empty())

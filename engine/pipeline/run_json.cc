@@ -44,6 +44,7 @@ Json json_of(const ReconstructOptions& options) {
           {"feather", options.fusion.feather},
           {"signed_distance", options.fusion.signed_distance == SignedDistance::kNormal ? "normal" : "ray"},
           {"weights", weights_json(options.fusion)},
+          {"fill_holes", options.fusion.fill_holes},
           {"confirm", options.confirm},
           {"min_confidence", options.automatic_confidence ? Json("auto") : Json(options.clean.min_confidence)},
           {"min_component", options.clean.min_component_triangles},
@@ -95,7 +96,8 @@ std::string run_json(const Scene& scene, const ReconstructOptions& options, cons
        {{"min_confidence", report.min_confidence},
         {"extracted_triangles", report.extracted_triangles},
         {"triangles", report.triangles},
-        {"vertices", report.vertices}}},
+        {"vertices", report.vertices},
+        {"filled_vertices", report.filled_vertices}}},
       {"depth_maps", views}};
   return all.dump(2) + "\n";
 }

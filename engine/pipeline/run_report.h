@@ -40,9 +40,10 @@ struct RunReport {
   std::uint64_t blocks = 0;
   int slabs = 0;                          ///< in which the volume was filled
   std::uint64_t block_views = 0;          ///< blocks near a view's surface, summed over the views
-  double min_confidence = 0.0;            ///< that a vertex needed to stay
+  float min_confidence = 0.0F;            ///< that a vertex needed to stay
   std::uint64_t extracted_triangles = 0;  ///< before cleaning
   std::uint64_t vertices = 0;
+  std::uint64_t filled_vertices = 0;  ///< of these, where nothing was measured
   std::uint64_t triangles = 0;
 };
 

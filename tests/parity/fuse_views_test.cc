@@ -1,5 +1,8 @@
 #include "engine/pipeline/fuse_views.h"
 
+#include <algorithm>
+
+#include "engine/mesh/fill_holes.h"
 #include "engine/pipeline/cpu_backend.h"
 #include "host/vulkan_backend.h"
 #include "tests/parity/parity_test.h"
@@ -27,6 +30,20 @@ TEST_F(FuseViewsParity, SlabsOnTheDeviceGiveTheMeshOfTheCpu) {
     EXPECT_EQ(report.slabs > 1, most < whole_report.blocks);
     EXPECT_LE(limited.largest_volume, most);
     EXPECT_TRUE(same_mesh(*mesh, whole)) << most << " blocks at once";
+  }
+}
+
+TEST_F(FuseViewsParity, HolesAreFilledOnTheDeviceAsOnTheCpu) {
+  const FusionScene scene(true);
+  CpuBackend cpu;
+  const auto gpu = VulkanBackend::create(device()).value();
+  for (const double mask_below : {0.0, 0.02}) {
+    RunReport report;
+    const Mesh expected = scene.fill(cpu, report, mask_below).value();
+    EXPECT_EQ(std::ranges::count_if(expected.vertices, is_filled) > 100, mask_below > 0) << mask_below;
+    const auto mesh = scene.fill(*gpu, report, mask_below);
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_TRUE(same_mesh(*mesh, expected)) << mask_below;
   }
 }
 

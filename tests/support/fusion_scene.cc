@@ -6,12 +6,15 @@
 namespace quorum {
 namespace {
 
-DepthMap exact_map(const View& view) {
+DepthMap exact_map(const View& view, bool hole) {
   DepthMap map;
   map.depth = map.correlation = map.confidence = Grid<float>(view.width, view.height);
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
-      map.depth.at(x, y) = static_cast<float>(sphere_depth(view, x, y));
+      const double depth = sphere_depth(view, x, y);
+      const Eigen::Vector3d direction = view.camera.unproject(x, y, depth).normalized();
+      if (hole && direction.dot(FusionScene::hole_center()) > FusionScene::kHoleCosine) continue;
+      map.depth.at(x, y) = static_cast<float>(depth);
       if (map.depth.at(x, y) > 0) map.correlation.at(x, y) = map.confidence.at(x, y) = 1.0F;
     }
   }
@@ -20,7 +23,7 @@ DepthMap exact_map(const View& view) {
 
 }  // namespace
 
-FusionScene::FusionScene() {
+FusionScene::FusionScene(bool hole) {
   SphereScene sphere = make_surrounding_sphere_scene(8, 121, 101, 1);
   scene_ = sphere.scene;
   const Workspace workspace = Workspace::open(folder_.path()).value();
@@ -29,12 +32,23 @@ FusionScene::FusionScene() {
     view.name = "view" + std::to_string(index);
     view.image_path = folder_.path() / (view.name + ".png");
     write_png(view.image_path, sphere.images[index]).value();
-    workspace.save_depth_map(view.name, exact_map(view)).value();
+    workspace.save_depth_map(view.name, exact_map(view, hole)).value();
   }
 }
 
 Expected<Mesh> FusionScene::fuse(Backend& backend, RunReport& report, std::uint64_t memory_bytes) const {
+  return fuse(backend, report, {}, memory_bytes, 0.0);
+}
+
+Expected<Mesh> FusionScene::fill(Backend& backend, RunReport& report, double mask_below) const {
   FusionOptions options;
+  options.fill_holes = true;
+  return fuse(backend, report, options, 0, mask_below);
+}
+
+Expected<Mesh> FusionScene::fuse(Backend& backend, RunReport& report, const FusionOptions& given,
+                                 std::uint64_t memory_bytes, double mask_below) const {
+  FusionOptions options = given;
   options.voxel_size = 0.05;
   options.truncation = 0.3;
   const VoxelGrid grid = make_voxel_grid(scene_, options).value();
@@ -42,7 +56,7 @@ Expected<Mesh> FusionScene::fuse(Backend& backend, RunReport& report, std::uint6
   std::vector<int> views;
   for (std::size_t index = 0; index < scene_.views.size(); ++index) views.push_back(static_cast<int>(index));
   const MemoryBudget budget(memory_bytes);
-  ImageStore images(scene_, 0);
+  ImageStore images(scene_, 0, mask_below);
   Progress progress;
   return fuse_views({scene_, views, grid, options, workspace, budget, backend, images, progress, report});
 }

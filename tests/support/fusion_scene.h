@@ -10,12 +10,22 @@ namespace quorum {
 /// Eight cameras around the sphere, and one above and one below; their photographs and depth maps as files.
 class FusionScene {
  public:
-  FusionScene();
+  /// hole: a piece of the sphere, around hole_center(), has no depth in any map.
+  explicit FusionScene(bool hole = false);
 
   /// The surface, and what was done for it.
   Expected<Mesh> fuse(Backend& backend, RunReport& report, std::uint64_t memory_bytes = 0) const;
+  /// The same with filled holes. mask_below: as ImageStore takes it.
+  Expected<Mesh> fill(Backend& backend, RunReport& report, double mask_below) const;
+
+  /// Cosine of the angle between a point of the hole and its center, at least.
+  static constexpr double kHoleCosine = 0.94;
+  static Eigen::Vector3d hole_center() { return Eigen::Vector3d(0.6, 0.3, -0.74).normalized(); }
 
  private:
+  [[nodiscard]] Expected<Mesh> fuse(Backend& backend, RunReport& report, const FusionOptions& options,
+                                    std::uint64_t memory_bytes, double mask_below) const;
+
   TemporaryFolder folder_;
   Scene scene_;
 };

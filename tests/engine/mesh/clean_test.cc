@@ -87,6 +87,13 @@ TEST(Clean, OfEqualComponentsThatWithTheLowestVertexStays) {
   EXPECT_EQ(original_triangles(clean(mesh, options(0, 0, true))), (std::vector<Triangle>{{8, 7, 0}}));
 }
 
+TEST(Clean, FilledTrianglesDoNotMakeAComponentLarge) {
+  const Mesh mesh = mesh_of({1, 1, 1, 0, 0, 1, 1, 1, 1}, {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {5, 6, 7}, {6, 7, 8}});
+  EXPECT_EQ(original_triangles(clean(mesh, options(0, 2))), (std::vector<Triangle>{{5, 6, 7}, {6, 7, 8}}));
+  EXPECT_EQ(clean(mesh, options(0, 1)).triangles.size(), 5U);
+  EXPECT_EQ(clean(mesh, options(0, 0, true)).triangles.size(), 2U);
+}
+
 TEST(Clean, ThresholdsKeepWhatEqualsThem) {
   EXPECT_EQ(clean(mesh_of({0.5F, 1, 1}, {{0, 1, 2}}), options(0.5F, 1)).triangles.size(), 1U);
   EXPECT_EQ(clean(two_components(), options(1, 2)).triangles.size(), 5U);
@@ -154,7 +161,7 @@ TEST(AutomaticMinConfidence, IsAnEighthOfTheMedianUpToALimit) {
       mesh.vertices.emplace_back();
       mesh.vertices.back().confidence = confidence;
     }
-    return automatic_min_confidence(mesh);
+    return automatic_min_confidence(mesh.vertices);
   };
   EXPECT_FLOAT_EQ(with_confidences({0.9F, 0.08F, 0.01F}), 0.01F);
   EXPECT_FLOAT_EQ(with_confidences({0.16F}), 0.02F);

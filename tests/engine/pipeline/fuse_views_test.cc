@@ -1,7 +1,13 @@
 #include "engine/pipeline/fuse_views.h"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
+#include <array>
+#include <bit>
+#include <set>
+
+#include "engine/mesh/fill_holes.h"
 #include "engine/pipeline/cpu_backend.h"
 #include "tests/support/fusion_scene.h"
 #include "tests/support/limited_backend.h"
@@ -49,6 +55,70 @@ TEST(FuseViews, ABudgetThatHoldsNoSlabIsRefusedWithTheLeastThatWouldDo) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::kMemory);
   EXPECT_NE(refused.error().message.find("give --memory "), std::string::npos) << refused.error().message;
+}
+
+/// All but the normal, which depends on the triangles around.
+using VertexKey = std::array<float, 5>;
+VertexKey key_of(const Vertex& vertex) {
+  return {vertex.position.x(), vertex.position.y(), vertex.position.z(), std::bit_cast<float>(vertex.color),
+          vertex.confidence};
+}
+
+constexpr double kDark = 0.02;
+
+TEST(FuseViews, AHoleInEveryDepthMapIsFilledWithConfidenceZeroAndNothingElseMoves) {
+  const FusionScene scene(true);
+  CpuBackend cpu;
+  RunReport report;
+  const Mesh open = scene.fuse(cpu, report).value();
+  EXPECT_FALSE(measure_mesh(open).closed);
+  const Mesh filled = scene.fill(cpu, report, kDark).value();
+  const MeshMeasures measures = measure_mesh(filled);
+  EXPECT_TRUE(measures.closed);
+  EXPECT_EQ(measures.euler_characteristic, 2);
+  std::set<VertexKey> measured;
+  int in_hole = 0;
+  for (const Vertex& vertex : filled.vertices) {
+    if (!is_filled(vertex)) {
+      measured.insert(key_of(vertex));
+      continue;
+    }
+    ++in_hole;
+    const Eigen::Vector3d position = vertex.position.cast<double>();
+    EXPECT_GT(position.normalized().dot(FusionScene::hole_center()), FusionScene::kHoleCosine - 0.08);
+    EXPECT_GT(position.norm(), 0.9);
+    EXPECT_LT(position.norm(), 1.25);
+    EXPECT_NE(vertex.color, Vertex().color) << "no color from around";
+  }
+  EXPECT_GT(in_hole, 200);
+  for (const Vertex& vertex : open.vertices) EXPECT_TRUE(measured.contains(key_of(vertex)));
+}
+
+TEST(FuseViews, SlabsAndThreadsFillHolesAlike) {
+  const FusionScene scene(true);
+  CpuBackend cpu;
+  RunReport whole_report;
+  const Mesh whole = scene.fill(cpu, whole_report, kDark).value();
+  for (const std::size_t most : {std::size_t{4}, std::size_t{60}}) {
+    LimitedBackend limited(cpu, most);
+    RunReport report;
+    EXPECT_TRUE(same_mesh(scene.fill(limited, report, kDark).value(), whole)) << most << " blocks at once";
+    EXPECT_GT(report.slabs, 1);
+  }
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  RunReport report;
+  EXPECT_TRUE(same_mesh(scene.fill(cpu, report, kDark).value(), whole));
+}
+
+TEST(FuseViews, AClosedSurfaceGetsNoFilledVertex) {
+  const FusionScene scene;
+  CpuBackend cpu;
+  RunReport report;
+  const Mesh open = scene.fuse(cpu, report).value();
+  for (const double mask_below : {0.0, kDark}) {
+    const Mesh filled = scene.fill(cpu, report, mask_below).value();
+    EXPECT_TRUE(same_mesh(filled, open)) << mask_below;
+  }
 }
 
 }  // namespace
