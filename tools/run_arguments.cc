@@ -22,6 +22,7 @@
 namespace quorum {
 namespace {
 
+constexpr const char* kFusionGroup = "Fusion and mesh (the paper, section 2.2)";
 constexpr const char* kDeviceGroup = "Device and output (results are the same on every device)";
 
 Error usage(std::string text) { return {ErrorKind::kUsage, std::move(text)}; }
@@ -201,6 +202,10 @@ void RunArguments::add_depth_options(CLI::App& app) {
                  "The second pass of plane and axis divides the step by this; 1: no second pass")
       ->capture_default_str()
       ->group(group);
+  add_background_option(app, group);
+}
+
+void RunArguments::add_background_option(CLI::App& app, const std::string& group) {
   app.add_option("--mask-below", options.mask_below,
                  "Leave out a background darker than this, 0 to 1 (0.19 for the dino); 0: keep all")
       ->capture_default_str()
@@ -208,7 +213,7 @@ void RunArguments::add_depth_options(CLI::App& app) {
 }
 
 void RunArguments::add_fusion_options(CLI::App& app) {
-  const std::string group = "Fusion and mesh (the paper, section 2.2)";
+  const std::string group = kFusionGroup;
   app.add_option("--voxel-size", voxel_size, "Edge of a voxel, such as 0.5mm; auto: a pixel's footprint")
       ->capture_default_str()
       ->group(group);
@@ -235,6 +240,9 @@ void RunArguments::add_fusion_options(CLI::App& app) {
   app.add_flag("--no-confirm", no_confirm,
                "The paper's confidence alone: depths don't gain or lose by what other views' depth maps say")
       ->group(group);
+  app.add_flag("--fill-holes", options.fusion.fill_holes,
+               "Close holes by space carving, also with what masks and --mask-below leave out; confidence 0 there")
+      ->group(group);
   app.add_option("--min-confidence", min_confidence,
                  "Drop triangles of less; 1 is one view that is fully confident; 0 keeps all")
       ->capture_default_str()
@@ -243,6 +251,11 @@ void RunArguments::add_fusion_options(CLI::App& app) {
       ->capture_default_str()
       ->group(group);
   app.add_flag("--largest-component", options.clean.largest_component, "Keep the largest piece alone")->group(group);
+}
+
+void RunArguments::add_fuse_options(CLI::App& app) {
+  add_fusion_options(app);
+  add_background_option(app, kFusionGroup);
 }
 
 void RunArguments::add_device_options(CLI::App& app) {

@@ -43,8 +43,13 @@ struct RunArguments {
   void add_output_options(CLI::App& app);
   void add_depth_options(CLI::App& app);
   void add_fusion_options(CLI::App& app);
+  /// The same for `quorum fuse`, which has no options of depth maps.
+  void add_fuse_options(CLI::App& app);
   void add_device_options(CLI::App& app);
   void add_device_and_output_options(CLI::App& app);
+
+ private:
+  void add_background_option(CLI::App& app, const std::string& group);
 };
 
 /// Adds --format and --images, which say how a scene's folder is to be read.

@@ -87,6 +87,24 @@ TEST_F(Reconstruct, OtherOptionsGiveOtherBytes) {
   EXPECT_NE(five.at("mesh.ply"), seven.at("mesh.ply"));
 }
 
+TEST_F(Reconstruct, FillHolesFillsAndIsOffByDefault) {
+  const Files open = reconstruct("result", {"--device", "cpu"});
+  EXPECT_FALSE(report("result")["options"]["fill_holes"].get<bool>());
+  EXPECT_EQ(report("result")["mesh"]["filled_vertices"].get<int>(), 0);
+  const Files filled = reconstruct("filled", {"--device", "cpu", "--fill-holes", "--mask-below", "0.02"});
+  EXPECT_TRUE(report("filled")["options"]["fill_holes"].get<bool>());
+  EXPECT_GT(report("filled")["mesh"]["filled_vertices"].get<int>(), 100);
+  EXPECT_NE(open.at("mesh.ply"), filled.at("mesh.ply"));
+  const std::vector<std::string> again = {"--device", "cpu", "--quiet"};
+  ASSERT_EQ(
+      run("fuse", "filled", {"--device", "cpu", "--quiet", "--threads", "1", "--fill-holes", "--mask-below", "0.02"})
+          .exit_code,
+      0);
+  expect_same_files(filled, results("filled"));
+  ASSERT_EQ(run("fuse", "result", again).exit_code, 0);
+  expect_same_files(open, results("result"));
+}
+
 TEST_F(Reconstruct, VulkanDeviceGivesTheSameBytesAsTheCpu) {
   const TestDevice device = find_test_device();
   if (device.request.empty()) {
@@ -97,6 +115,10 @@ TEST_F(Reconstruct, VulkanDeviceGivesTheSameBytesAsTheCpu) {
   const Files cpu = reconstruct("cpu", {"--device", "cpu"});
   expect_same_files(cpu, reconstruct("vulkan", {"--device", device.request}));
   EXPECT_NE(report("cpu")["device"], report("vulkan")["device"]);
+  ASSERT_EQ(run("fuse", "cpu", {"--device", "cpu", "--fill-holes"}).exit_code, 0);
+  ASSERT_EQ(run("fuse", "vulkan", {"--device", device.request, "--fill-holes"}).exit_code, 0);
+  EXPECT_NE(results("cpu").at("mesh.ply"), cpu.at("mesh.ply"));
+  expect_same_files(results("cpu"), results("vulkan"));
   EXPECT_FALSE(report("vulkan")["kernels"].empty());
 }
 
