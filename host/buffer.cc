@@ -51,9 +51,10 @@ Buffer::Buffer(Buffer&& other) noexcept = default;
 Buffer& Buffer::operator=(Buffer&& other) noexcept = default;
 Buffer::~Buffer() = default;
 
-Expected<Buffer> Buffer::create(const Device& device, std::uint64_t size_bytes) {
+Expected<Buffer> Buffer::create(const Device& device, std::uint64_t size_bytes, BufferUse use) {
   const DeviceInfo& info = device.info();
-  const std::uint64_t limit = std::min(info.max_storage_buffer_range, info.max_allocation);
+  const std::uint64_t limit =
+      use == BufferUse::kWhole ? std::min(info.max_storage_buffer_range, info.max_allocation) : info.max_allocation;
   if (size_bytes > limit) {
     return failure(ErrorKind::kMemory,
                    fmt::format("a buffer of {} ({} bytes) exceeds the {} ({} bytes) that a kernel can see on {}: lower "
@@ -70,8 +71,8 @@ Expected<Buffer> Buffer::create(const Device& device, std::uint64_t size_bytes) 
   });
 }
 
-Expected<Buffer> Buffer::of_bytes(const Device& device, std::span<const std::byte> bytes) {
-  auto buffer = create(device, bytes.size());
+Expected<Buffer> Buffer::of_bytes(const Device& device, std::span<const std::byte> bytes, BufferUse use) {
+  auto buffer = create(device, bytes.size(), use);
   if (!buffer) return buffer;
   if (auto done = buffer->upload_bytes(bytes, 0); !done) return std::unexpected(done.error());
   return buffer;

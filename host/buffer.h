@@ -16,7 +16,10 @@ namespace quorum {
 /// A vector, array, Grid::values or span of what can be copied byte by byte.
 template <typename Range>
 concept PlainValues = std::ranges::contiguous_range<Range> && std::ranges::sized_range<Range> &&
-                      std::is_trivially_copyable_v<std::ranges::range_value_t<Range>>;
+    std::is_trivially_copyable_v<std::ranges::range_value_t<Range>>;
+
+/// How kernels see a buffer: all of it as words, or as texels or part by part, for which it may be larger.
+enum class BufferUse { kWhole, kInParts };
 
 /// A storage buffer in the memory of a device. Transfers are done when they return; they must not overlap a submission
 /// that uses the buffer, and need none to have come before. Move-only; a moved-from buffer may only be assigned to or
@@ -24,13 +27,13 @@ concept PlainValues = std::ranges::contiguous_range<Range> && std::ranges::sized
 class Buffer {
  public:
   /// A buffer of size_bytes, 0 included, with undefined content. Fails (kMemory) if no kernel can see a buffer of this
-  /// size on the device, or if its memory is used up; (kDevice) if the driver fails.
-  static Expected<Buffer> create(const Device& device, std::uint64_t size_bytes);
+  /// size on the device in this way, or if its memory is used up; (kDevice) if the driver fails.
+  static Expected<Buffer> create(const Device& device, std::uint64_t size_bytes, BufferUse use = BufferUse::kWhole);
 
   /// A buffer that holds values. Fails as create and upload do.
   template <PlainValues Range>
-  static Expected<Buffer> of(const Device& device, const Range& values) {
-    return of_bytes(device, std::as_bytes(std::span(values)));
+  static Expected<Buffer> of(const Device& device, const Range& values, BufferUse use = BufferUse::kWhole) {
+    return of_bytes(device, std::as_bytes(std::span(values)), use);
   }
 
   Buffer(Buffer&& other) noexcept;
@@ -62,7 +65,7 @@ class Buffer {
 
  private:
   explicit Buffer(std::unique_ptr<State> state);
-  static Expected<Buffer> of_bytes(const Device& device, std::span<const std::byte> bytes);
+  static Expected<Buffer> of_bytes(const Device& device, std::span<const std::byte> bytes, BufferUse use);
   Expected<void> upload_bytes(std::span<const std::byte> bytes, std::uint64_t offset);
   Expected<void> download_bytes(std::span<std::byte> bytes, std::uint64_t offset) const;
 

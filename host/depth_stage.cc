@@ -13,7 +13,7 @@
 namespace quorum {
 namespace {
 
-constexpr std::int64_t kNccValues = 16LL << 20;  // room for a batch: 64 MiB, below any maxStorageBufferRange
+constexpr std::int64_t kNccValues = 16LL << 20;  // room for a batch: 64 MiB, below any real maxStorageBufferRange
 constexpr std::int64_t kMaxGroups = 65535;       // that any device allows
 constexpr std::int64_t kLanesGroupSize = 16;     // invocations, each with an item
 // Planes of a block: with 32 neighbors 32,768 rounds of vote_depth's loops. lavapipe stops the loops of an invocation
@@ -44,6 +44,24 @@ BlockSize first_block(SweepForm form, int window, const DeviceInfo& device) {
              : second_block(form);
 }
 
+// Room for the values of a batch.
+std::int64_t ncc_values(const DeviceInfo& device) {
+  return std::min(kNccValues, static_cast<std::int64_t>(device.max_storage_buffer_range / sizeof(float)));
+}
+
+// Rows whose votes a kernel can see at once, in whole blocks.
+int rows_of_band(int width, const DeviceInfo& device) {
+  const std::uint64_t rows = device.max_storage_buffer_range / (sizeof(PixelVote) * static_cast<std::uint64_t>(width));
+  constexpr std::uint64_t kMostRows = 1U << 24;
+  return std::max(static_cast<int>(std::min(rows, kMostRows)) / kBlockMultiple, 1) * kBlockMultiple;
+}
+
+Grid<PlaneRange> rows_of(const Grid<PlaneRange>& ranges, int begin, int end) {
+  Grid<PlaneRange> rows(ranges.width, end - begin);
+  std::copy(ranges.row(begin), ranges.row(begin) + rows.values.size(), rows.values.begin());
+  return rows;
+}
+
 SweepParams make_sweep_params(const SweepTask& task, BlockSize block, std::size_t neighbor, int item_count) {
   const int width = task.reference->width;
   const PaddedImage& image = *task.neighbors[neighbor];
@@ -58,10 +76,11 @@ SweepParams make_sweep_params(const SweepTask& task, BlockSize block, std::size_
           .ncc_offset = static_cast<int>(neighbor) * item_count * (block.pixels() / 4)};
 }
 
-VoteParams make_vote_params(const SweepTask& task, BlockSize block, const SweepBatch& batch) {
+// height: of the band.
+VoteParams make_vote_params(const SweepTask& task, BlockSize block, const SweepBatch& batch, int height) {
   const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
   return {.width = task.reference->width,
-          .height = task.reference->height,
+          .height = height,
           .block_width = block.width,
           .block_height = block.height,
           .block_count = static_cast<int>(batch.blocks.size()),
@@ -91,11 +110,14 @@ DepthStage::DepthStage(const Device& device, Commands& commands, SweepForm form,
       form_(form),
       vote_depth_(std::move(vote_depth)),
       planes_(std::move(planes)),
-      batch_size_(kStartWindows, kLeastWindows, kNccValues) {}
+      planes_in_lanes_(device, commands),
+      batch_size_(kStartWindows, kLeastWindows, ncc_values(device.info())) {}
 
 SweepForm DepthStage::form_of(const SweepTask& task) const {
   if (task.options.window_model == WindowModel::kAxis) return SweepForm::kGroups;
-  const auto fits = [&](const auto& image) { return quads_size(*image) <= device_->info().max_storage_buffer_range; };
+  const DeviceInfo& info = device_->info();
+  const std::uint64_t most = std::min(info.max_texel_buffer_elements * sizeof(Texel), info.max_allocation);
+  const auto fits = [&](const auto& image) { return quads_size(*image) <= most; };
   return fits(task.reference) && std::ranges::all_of(task.neighbors, fits) ? form_ : SweepForm::kGroups;
 }
 
@@ -133,24 +155,25 @@ Expected<void> DepthStage::prepare_kernels(const SweepTask& task) {
 Expected<DepthStage::Inputs> DepthStage::upload(const SweepTask& task) const {
   const bool lanes = sweep_->form == SweepForm::kLanes;
   const int window = task.options.window;
-  auto reference = lanes ? Buffer::of(*device_, make_reference_texels(*task.reference, window))
-                         : Buffer::of(*device_, task.reference->pixels);
+  const BufferUse use = lanes ? BufferUse::kInParts : BufferUse::kWhole;  // as texels, or as words
+  auto reference = lanes ? Buffer::of(*device_, make_reference_texels(*task.reference, window), use)
+                         : Buffer::of(*device_, task.reference->pixels, use);
   if (!reference) return std::unexpected(reference.error());
-  auto windows = Buffer::of(*device_, in_whole_blocks(make_reference_windows(*task.reference, window)).values);
+  auto windows = Buffer::of(*device_, in_whole_blocks(make_reference_windows(*task.reference, window)).values, use);
   if (!windows) return std::unexpected(windows.error());
   std::vector<Buffer> neighbors;
   for (const auto& image : task.neighbors) {
-    auto neighbor = lanes ? Buffer::of(*device_, make_quads(*image)) : Buffer::of(*device_, image->pixels);
+    auto neighbor = lanes ? Buffer::of(*device_, make_quads(*image), use) : Buffer::of(*device_, image->pixels, use);
     if (!neighbor) return std::unexpected(neighbor.error());
     neighbors.push_back(std::move(*neighbor));
   }
-  auto ncc = Buffer::create(*device_, static_cast<std::uint64_t>(kNccValues) * sizeof(float));
+  auto ncc = Buffer::create(*device_, static_cast<std::uint64_t>(ncc_values(device_->info())) * sizeof(float));
   if (!ncc) return std::unexpected(ncc.error());
   return Inputs{std::move(*reference), std::move(*windows), std::move(neighbors), std::move(*ncc)};
 }
 
 Expected<void> DepthStage::run_batch(const SweepTask& task, const Inputs& inputs, const Pass& pass,
-                                     const SweepBatch& batch, const Buffer& ranges, const Buffer& votes) {
+                                     const SweepBatch& batch, const Band& band) {
   const std::int64_t windows_of_item = pass.block.pixels();
   const auto item_count = static_cast<std::int64_t>(batch.items.size());
   auto blocks = Buffer::of(*device_, batch.blocks);
@@ -164,30 +187,43 @@ Expected<void> DepthStage::run_batch(const SweepTask& task, const Inputs& inputs
                         {*items, inputs.reference, inputs.windows, inputs.neighbors[neighbor], inputs.ncc});
   commands_->region("vote_depth");
   commands_->dispatch(vote_depth_, {static_cast<std::int64_t>(batch.blocks.size()) * windows_of_item / 4},
-                      make_vote_params(task, pass.block, batch), {*blocks, *items, ranges, inputs.ncc, votes});
+                      make_vote_params(task, pass.block, batch, band.height),
+                      {*blocks, *items, band.ranges, inputs.ncc, band.votes});
   return commands_->submit();
 }
 
-Expected<Grid<PixelVote>> DepthStage::run_pass(const SweepTask& task, const Inputs& inputs,
-                                               const Grid<PlaneRange>& ranges, const Pass& pass, int stride) {
-  Grid<PixelVote> votes(ranges.width, ranges.height, kNoVote);
+Expected<void> DepthStage::run_band(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges,
+                                    const Pass& pass, int stride, int row_begin, std::span<PixelVote> votes) {
   auto range_buffer = Buffer::of(*device_, ranges.values);
   if (!range_buffer) return std::unexpected(range_buffer.error());
-  auto vote_buffer = Buffer::of(*device_, votes.values);
+  auto vote_buffer = Buffer::of(*device_, votes);
   if (!vote_buffer) return std::unexpected(vote_buffer.error());
+  const Band band{ranges.height, std::move(*range_buffer), std::move(*vote_buffer)};
   const std::int64_t item_windows = std::int64_t{pass.block.pixels()} * task.neighbor_count();
   const std::int64_t max_items = kMaxGroups * (sweep_->form == SweepForm::kLanes ? kLanesGroupSize : 1);
   SweepBatches batches(ranges, task.planes.inverse_depth, pass.block, stride);
   while (true) {
     const std::int64_t most = std::clamp<std::int64_t>(batch_size_.items() / item_windows, 1, max_items);
-    const SweepBatch batch = batches.next(most, kMaxPlanes);
+    SweepBatch batch = batches.next(most, kMaxPlanes);
     if (batch.items.empty()) break;
-    if (auto done = run_batch(task, inputs, pass, batch, *range_buffer, *vote_buffer); !done)
-      return std::unexpected(done.error());
+    for (SweepItem& item : batch.items) item.y += row_begin;  // items lie in the view, blocks in the band
+    if (auto done = run_batch(task, inputs, pass, batch, band); !done) return done;
     batch_size_.measured(static_cast<std::int64_t>(batch.items.size()) * item_windows,
                          commands_->last_submission_seconds());
   }
-  if (auto read = vote_buffer->download(votes.values); !read) return std::unexpected(read.error());
+  return band.votes.download(votes);
+}
+
+Expected<Grid<PixelVote>> DepthStage::run_pass(const SweepTask& task, const Inputs& inputs,
+                                               const Grid<PlaneRange>& ranges, const Pass& pass, int stride) {
+  Grid<PixelVote> votes(ranges.width, ranges.height, kNoVote);
+  const int rows = rows_of_band(ranges.width, device_->info());
+  for (int begin = 0; begin < ranges.height; begin += rows) {
+    const Grid<PlaneRange> band = rows_of(ranges, begin, std::min(begin + rows, ranges.height));
+    const std::span<PixelVote> band_votes(votes.row(begin), band.values.size());
+    if (auto done = run_band(task, inputs, band, pass, stride, begin, band_votes); !done)
+      return std::unexpected(done.error());
+  }
   return votes;
 }
 
@@ -206,7 +242,8 @@ Expected<DepthMap> DepthStage::run(const SweepTask& task) {
   const auto votes = sweep(task);
   if (!votes) return std::unexpected(votes.error());
   if (task.options.window_model != WindowModel::kSlanted) return depth_map_from_votes(*votes, task.planes);
-  const auto planes = planes_.run(task, *votes);
+  const bool lanes = form_ == SweepForm::kLanes && planes_in_lanes_.fits(task);
+  const auto planes = lanes ? planes_in_lanes_.run(task, *votes) : planes_.run(task, *votes);
   if (!planes) return std::unexpected(planes.error());
   return depth_map_from_planes(*planes, task.intrinsics);
 }

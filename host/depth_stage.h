@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "engine/depth/depth_map.h"
 #include "engine/depth/sweep_task.h"
@@ -10,6 +11,7 @@
 #include "host/buffer.h"
 #include "host/commands.h"
 #include "host/kernel.h"
+#include "host/plane_lanes_stage.h"
 #include "host/plane_stage.h"
 #include "host/sweep_batch.h"
 
@@ -51,6 +53,13 @@ class DepthStage {
     Buffer ncc;
   };
 
+  /// Rows of the view, as many as kernels see the votes of.
+  struct Band {
+    int height;
+    Buffer ranges;
+    Buffer votes;
+  };
+
   DepthStage(const Device& device, Commands& commands, SweepForm form, Kernel vote_depth, PlaneStage planes);
   [[nodiscard]] SweepForm form_of(const SweepTask& task) const;
   Expected<void> prepare_kernels(const SweepTask& task);
@@ -59,14 +68,18 @@ class DepthStage {
   Expected<Grid<PixelVote>> sweep(const SweepTask& task);
   Expected<Grid<PixelVote>> run_pass(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges,
                                      const Pass& pass, int stride);
+  /// votes: of the band, on entry and after it.
+  Expected<void> run_band(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges, const Pass& pass,
+                          int stride, int row_begin, std::span<PixelVote> votes);
   Expected<void> run_batch(const SweepTask& task, const Inputs& inputs, const Pass& pass, const SweepBatch& batch,
-                           const Buffer& ranges, const Buffer& votes);
+                           const Band& band);
 
   const Device* device_;
   Commands* commands_;
   SweepForm form_;
   Kernel vote_depth_;
   PlaneStage planes_;
+  PlaneLanesStage planes_in_lanes_;
   std::optional<Sweep> sweep_;
   BatchSize batch_size_;  // windows per submission
 };

@@ -74,6 +74,10 @@ Expected<Device> Device::open(const DeviceInfo& info, const DeviceOptions& optio
     opened->info = describe_device(opened->physical, info.index);
     if (opened->info.name != info.name) return std::shared_ptr<State>();
     opened->limits = opened->physical.getProperties().limits;
+    if (options.max_storage_buffer_range > 0) {
+      opened->info.max_storage_buffer_range = options.max_storage_buffer_range;
+      opened->limits.maxStorageBufferRange = static_cast<std::uint32_t>(options.max_storage_buffer_range);
+    }
     opened->memory = opened->physical.getMemoryProperties();
     if (options.validation) opened->messenger = make_messenger(opened->instance, opened->log);
     open_queue(*opened);

@@ -13,6 +13,7 @@ namespace quorum {
 struct DeviceOptions {
   bool validation = false;     ///< load the validation layer and collect what it says; slow, for tests
   bool force_staging = false;  ///< copy through a staging buffer even where memory can be mapped; for tests
+  std::uint64_t max_storage_buffer_range = 0;  ///< lowers that of the device, unless it is 0; for tests
 };
 
 /// Different objects made from one device may be used by different threads at once; one object by one thread at a time.

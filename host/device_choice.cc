@@ -48,7 +48,7 @@ DeviceChoice choose_automatically(std::span<const DeviceInfo> devices) {
     }
   }
   if (std::ranges::any_of(devices, [](const auto& device) { return device.kind == DeviceKind::kSoftware; })) {
-    return {{}, "there is no GPU, and the CPU path is about ten times faster than software Vulkan"};
+    return {{}, "there is no GPU, and the CPU path is about twice as fast as software Vulkan"};
   }
   return {{}, "there is no Vulkan GPU"};
 }

@@ -19,7 +19,7 @@ struct DeviceChoice {
 
 /// Chooses among devices. request:
 ///   auto         the usable discrete GPU with the largest memory, else integrated, else virtual, else the CPU path;
-///                never software Vulkan, since the CPU path is about ten times faster
+///                never software Vulkan, since the CPU path is about twice as fast
 ///   cpu          the CPU path
 ///   a number     the device with this index, software Vulkan included
 ///   other text   the device with this in its name, whatever the case; of several with one name the first usable

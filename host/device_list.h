@@ -27,6 +27,7 @@ struct DeviceInfo {
   std::string api_version;                       ///< of Vulkan: "1.3.230"
   std::uint64_t max_storage_buffer_range = 0;    ///< largest buffer that a kernel can see
   std::uint64_t storage_buffer_alignment = 1;    ///< of the offset of a BufferView
+  std::uint64_t max_texel_buffer_elements = 0;   ///< texels of four words of a buffer that a kernel can see
   std::uint64_t largest_device_heap = 0;         ///< memory of the device
   std::uint64_t max_allocation = 0;              ///< largest single allocation
   std::uint32_t subgroup_size = 0;               ///< invocations that run in lockstep

@@ -152,6 +152,7 @@ DeviceInfo describe_device(const vk::raii::PhysicalDevice& physical, int index) 
   info.api_version = version_text(properties.apiVersion);
   info.max_storage_buffer_range = properties.limits.maxStorageBufferRange;
   info.storage_buffer_alignment = properties.limits.minStorageBufferOffsetAlignment;
+  info.max_texel_buffer_elements = properties.limits.maxTexelBufferElements;
   info.largest_device_heap = largest_device_heap(physical);
   info.max_work_group_invocations = properties.limits.maxComputeWorkGroupInvocations;
   info.shared_memory_bytes = properties.limits.maxComputeSharedMemorySize;

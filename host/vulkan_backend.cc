@@ -42,8 +42,11 @@ std::uint64_t VulkanBackend::view_bytes(std::uint64_t pixels, int neighbors) con
   // Of the host: votes, ranges, what the planes begin with, support windows, the planes, the maps.
   const std::uint64_t host = kStaging + (neighbors > 0 ? 116 : 44) * pixels;
   if (!shares_memory()) return host;
-  // Of the device: photographs, support windows, ranges, planes twice, and those that are tried.
-  return host + kNccValues + (4 * (1 + static_cast<std::uint64_t>(neighbors)) + (neighbors > 0 ? 100 : 20)) * pixels;
+  // Of the device: photographs (software Vulkan takes the four texels of a sample for each of their pixels), support
+  // windows, ranges, planes twice, and those that are tried.
+  const std::uint64_t photograph = device_->info().kind == DeviceKind::kSoftware ? 16 : 4;
+  return host + kNccValues +
+         (photograph * (1 + static_cast<std::uint64_t>(neighbors)) + (neighbors > 0 ? 100 : 20)) * pixels;
 }
 
 std::vector<StageTime> VulkanBackend::kernel_times() const {

@@ -165,6 +165,32 @@ struct SupportWindow {
 };
 QUORUM_SIZE(SupportWindow, 24);
 
+// refine_planes_lanes reads these as texels of four words: what a pixel needs beside its plane,
+struct PlanePixel {
+  SupportWindow support;
+  InverseDepthRange range;
+};
+QUORUM_SIZE(PlanePixel, 32);
+
+// its plane of the last round, a PixelPlane without its correlation,
+struct PlaneTexel {
+  float inverse_depth;
+  float slope_x;
+  float slope_y;
+  float confidence;  // below 0 if the plane was taken in the last round
+};
+QUORUM_SIZE(PlaneTexel, 16);
+
+// and a neighbor. Moves are two texels, too.
+struct PlaneNeighbor {
+  PlaneWarp warp;
+  int width;       // pixels
+  int height;      // pixels
+  int first_quad;  // its place among the quads of all images
+  int unused;
+};
+QUORUM_SIZE(PlaneNeighbor, 64);
+
 // sweep_depth and sweep_depth_lanes: NCC of all windows of a batch of items against one neighbor.
 struct SweepParams {
   PlaneWarp warp;
@@ -220,6 +246,24 @@ struct RefinePlanesParams {
   float confidence_scale;
 };
 QUORUM_SIZE(RefinePlanesParams, 60);
+
+// refine_planes_lanes: a round of moves in a run of rows.
+struct RefinePlanesLanesParams {
+  int width;          // reference view, pixels
+  int height;         // reference view, pixels
+  int row_begin;      // the run
+  int row_end;        // one beyond it
+  int rows_per_lane;  // that an invocation takes
+  int first_pixel;    // of the bound parts of what is written
+  int move_count;
+  int neighbor_count;
+  int is_first;  // 1: the planes of the last round are those to begin with, and no pixel has one yet
+  int min_votes;
+  float max_tilt;
+  float threshold;
+  float confidence_scale;  // 1 / (neighbor count * (1 - threshold))
+};
+QUORUM_SIZE(RefinePlanesLanesParams, 52);
 
 // confirm_depths: what one other view's depth map says of the depths of a view.
 struct ConfirmDepthsParams {

@@ -2,7 +2,7 @@
 // Every pixel starts with a plane that fits the first pass of the sweep around it. Then, in rounds, it tries the planes
 // of pixels beside it and small steps of its own, and takes what raises the paper's conf(d) under the same quorum,
 // valid before or not. A round reads the planes of the last one and of the pixel itself, so the result depends on no
-// order, and nothing is random. Twin of shaders/refine_planes.comp.
+// order, and nothing is random. Twin of shaders/refine_planes.comp and refine_planes_lanes.comp.
 #pragma once
 
 #include "engine/depth/depth_map.h"

@@ -115,6 +115,13 @@ TEST_P(BufferTest, ABufferBeyondWhatAKernelCanSeeIsRefused) {
   }
 }
 
+TEST_P(BufferTest, ABufferThatIsSeenInPartsMayBeLarger) {
+  const Device small = Device::open(tested().info(), {.max_storage_buffer_range = 1024}).value();
+  EXPECT_FALSE(Buffer::create(small, 1025));
+  EXPECT_TRUE(Buffer::create(small, 1025, BufferUse::kInParts));
+  EXPECT_FALSE(Buffer::create(small, small.info().max_allocation + 1, BufferUse::kInParts));
+}
+
 TEST_P(BufferTest, SurvivesItsDeviceObject) {
   std::optional<Device> own(Device::open(tested().info()).value());
   Buffer buffer = Buffer::of(*own, std::vector{7, 8}).value();

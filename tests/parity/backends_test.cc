@@ -105,6 +105,27 @@ TEST_F(BackendsParity, ImagesOfDifferentSizesGiveEqualDepthMapsAndVolumes) {
   ASSERT_TRUE(same_words(on_device.voxels, twin.voxels, kBlockVoxels, "(voxel, slot)"));
 }
 
+TEST_F(BackendsParity, DepthMapsAreEqualWhereKernelsSeeLittleOfABuffer) {
+  const Device limited =
+      Device::open(device().info(), {.validation = true, .max_storage_buffer_range = 1U << 16}).value();
+  const std::unique_ptr<VulkanBackend> backend = VulkanBackend::create(limited, SweepForm::kLanes).value();
+  CpuBackend cpu;
+  for (const WindowModel model : {WindowModel::kSlanted, WindowModel::kPlane}) {
+    SweepOptions options;
+    options.window_model = model;
+    const SweepTask task = make_sphere_task(make_sphere_scene(4, 170, 131, true, 9), 1, options);
+    ASSERT_GT(task.ranges.values.size() * sizeof(PixelVote), limited.info().max_storage_buffer_range);
+    const DepthMap twin = cpu.sweep_depth(task).value();
+    const DepthMap on_device = backend->sweep_depth(task).value();
+    const std::string what = fmt::format("{}", window_model_name(model));
+    ASSERT_GT(std::ranges::count_if(twin.depth.values, [](float depth) { return depth > 0; }), 500);
+    ASSERT_TRUE(same_words(on_device.depth.values, twin.depth.values, 170, what + " depth"));
+    ASSERT_TRUE(same_words(on_device.correlation.values, twin.correlation.values, 170, what + " correlation"));
+    ASSERT_TRUE(same_words(on_device.confidence.values, twin.confidence.values, 170, what + " confidence"));
+  }
+  for (const std::string& message : limited.take_validation_messages()) ADD_FAILURE() << message;
+}
+
 TEST_F(BackendsParity, DepthMapsAreEqualInEveryForm) {
   const std::array backends = {vulkan(SweepForm::kGroups), vulkan(SweepForm::kLanes), vulkan()};
   CpuBackend cpu;
