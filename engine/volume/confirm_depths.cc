@@ -90,9 +90,9 @@ float certainty_of(int support) {
   constexpr int kLeast = kConfirmingViews * kSupportOfLookingThrough;
   constexpr int kMost = kConfirmingViews * 2 * kSupportOfAgreement;
   // In 1/256.
-  constexpr std::array<int, kMost - kLeast + 1> kCertainty = {9,   17,  26,  38,  66,  76,  76,  129, 142, 163, 169,
-                                                              199, 203, 221, 221, 237, 237, 248, 248, 248, 248, 252,
-                                                              252, 252, 252, 254, 254, 254, 254, 254, 255};
+  constexpr std::array<int, kMost - kLeast + 1> kCertainty = {9,   17,  35,  47,  88,  103, 103, 186, 186, 209, 210,
+                                                              231, 231, 241, 241, 248, 248, 253, 253, 253, 253, 255,
+                                                              255, 255, 255, 255, 255, 255, 255, 255, 255};
   constexpr float kUnit = 0.00390625F;
   QUORUM_CHECK_GE(support, kLeast);
   QUORUM_CHECK_LE(support, kMost);
