@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
+
+#include "engine/mesh/disjoint_sets.h"
 
 namespace quorum {
 namespace {
@@ -18,26 +19,21 @@ std::uint64_t drop_triangles(std::vector<Triangle>& triangles, Predicate is_drop
   return static_cast<std::uint64_t>(std::erase_if(triangles, is_dropped));
 }
 
-/// Disjoint sets of vertices. The representative of a set is its lowest vertex, so that it does not depend on the order
-/// in which sets were joined.
+/// Sets of vertices that triangles join, named by their lowest vertex.
 class Components {
  public:
   Components(const Mesh& mesh, const std::vector<Triangle>& triangles)
-      : parent_(mesh.vertices.size()), triangles_(mesh.vertices.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
+      : sets_(mesh.vertices.size()), triangles_(mesh.vertices.size()) {
     for (const Triangle& triangle : triangles) {
-      join(triangle[0], triangle[1]);
-      join(triangle[0], triangle[2]);
+      sets_.join(triangle[0], triangle[1]);
+      sets_.join(triangle[0], triangle[2]);
     }
     for (const Triangle& triangle : triangles)
       if (std::ranges::all_of(triangle, [&](std::uint32_t v) { return mesh.vertices[v].confidence > 0.0F; }))
         ++triangles_[find(triangle[0])];
   }
 
-  std::uint32_t find(std::uint32_t vertex) {
-    while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
-    return vertex;
-  }
+  std::uint32_t find(std::uint32_t vertex) { return sets_.find(vertex); }
 
   /// Measured triangles in the component of a vertex.
   std::uint64_t size(std::uint32_t vertex) { return triangles_[find(vertex)]; }
@@ -48,13 +44,7 @@ class Components {
   }
 
  private:
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-  std::vector<std::uint32_t> parent_;
+  DisjointSets sets_;
   std::vector<std::uint64_t> triangles_;  ///< at representatives: measured triangles in the component
 };
 

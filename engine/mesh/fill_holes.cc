@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "engine/core/check.h"
 #include "engine/mesh/block_cubes.h"
+#include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/free_space.h"
 
 namespace quorum {
@@ -102,24 +102,6 @@ void add_border(std::vector<BlockBits>& outside, const VoxelGrid& grid) {
     for (std::size_t z = 0; z < border.size(); ++z) outside[index][z] |= border[z];
   });
 }
-
-/// Disjoint sets of vertices.
-class Patches {
- public:
-  explicit Patches(std::size_t vertices) : parent_(vertices) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t vertex) {
-    while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
-    return vertex;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Walks along the edges of a block in their order and finds the measured vertices.
 class MeasuredEdges {
@@ -318,7 +300,7 @@ void settle_filled(Mesh& mesh) {
 }
 
 void drop_unbounded(Mesh& mesh, const std::vector<char>& at_border) {
-  Patches patches(mesh.vertices.size());
+  DisjointSets patches(mesh.vertices.size());
   const auto filled = [&](std::uint32_t vertex) { return is_filled(mesh.vertices[vertex]); };
   for (const auto& [a, b, c] : mesh.triangles)
     for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}})
