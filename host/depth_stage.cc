@@ -142,13 +142,16 @@ Expected<DepthStage::Pass> DepthStage::make_pass(SweepForm form, const SweepOpti
 Expected<void> DepthStage::prepare_kernels(const SweepTask& task) {
   const SweepOptions& options = task.options;
   const SweepForm form = form_of(task);
-  if (sweep_ && sweep_->form == form && sweep_->window == options.window && sweep_->model == options.window_model)
+  for (const Sweep& sweep : sweeps_) {
+    if (sweep.form != form || sweep.window != options.window || sweep.model != options.window_model) continue;
+    sweep_ = &sweep;
     return {};
+  }
   auto first = make_pass(form, options, first_block(form, options.window, device_->info()));
   if (!first) return std::unexpected(first.error());
   auto second = make_pass(form, options, second_block(form));
   if (!second) return std::unexpected(second.error());
-  sweep_.emplace(Sweep{form, options.window, options.window_model, std::move(*first), std::move(*second)});
+  sweep_ = &sweeps_.emplace_back(form, options.window, options.window_model, std::move(*first), std::move(*second));
   return {};
 }
 

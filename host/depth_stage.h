@@ -2,6 +2,7 @@
 // pixel's best one (between the two passes only the planes differ), or tilted planes instead (host/plane_stage.h).
 #pragma once
 
+#include <list>
 #include <optional>
 #include <span>
 
@@ -80,8 +81,9 @@ class DepthStage {
   Kernel vote_depth_;
   PlaneStage planes_;
   PlaneLanesStage planes_in_lanes_;
-  std::optional<Sweep> sweep_;
-  BatchSize batch_size_;  // windows per submission
+  std::list<Sweep> sweeps_;       // that were made so far
+  const Sweep* sweep_ = nullptr;  // of the task
+  BatchSize batch_size_;          // windows per submission
 };
 
 }  // namespace quorum

@@ -13,11 +13,10 @@
 namespace quorum {
 namespace {
 
-constexpr std::int64_t kLanes = 8;         // invocations of a work group, each with a column
-constexpr std::int64_t kRowsPerLane = 32;  // enough that the lanes of a group end at about the same time
-// Of a submission, at most: seconds with small windows, half a minute with the largest.
-constexpr std::int64_t kWindowsOfRun = 1LL << 24;
-constexpr std::int64_t kViewMultiple = 64;  // pixels, so that the views of a run are aligned
+constexpr std::int64_t kLanes = 8;                   // invocations of a work group, each with a column
+constexpr std::int64_t kRowsPerLane = 32;            // enough that the lanes of a group end at about the same time
+constexpr std::int64_t kSamplesOfRun = 400'000'000;  // of a submission, at most: seconds
+constexpr std::int64_t kViewMultiple = 64;           // pixels, so that the views of a run are aligned
 
 std::uint64_t quad_count(const PaddedImage& image) { return quads_size(image) / sizeof(Texel); }
 
@@ -76,13 +75,12 @@ bool PlaneLanesStage::fits(const SweepTask& task) const {
 }
 
 Expected<void> PlaneLanesStage::prepare_kernel(int window) {
-  if (kernel_ && window_ == window) return {};
+  if (kernels_.contains(window)) return {};
   auto kernel = Kernel::create(*device_, find_kernel("refine_planes_lanes"),
                                {{"kWindow", static_cast<std::uint32_t>(window)},
                                 {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(window))}});
   if (!kernel) return std::unexpected(kernel.error());
-  kernel_.emplace(std::move(*kernel));
-  window_ = window;
+  kernels_.emplace(window, std::move(*kernel));
   return {};
 }
 
@@ -128,7 +126,8 @@ Expected<void> PlaneLanesStage::run_round(const SweepTask& task, Buffers& buffer
   const std::int64_t most_rows = rows_per_lane(task, move_count, device_->info().max_loop_iterations);
   const auto most_planes = static_cast<std::int64_t>(device_->info().max_storage_buffer_range / sizeof(PlaneTexel));
   const std::int64_t run_pixels =
-      std::min(kWindowsOfRun / (move_count * task.neighbor_count()), most_planes - kViewMultiple);
+      std::min(kSamplesOfRun / (move_count * task.neighbor_count() * task.options.window * task.options.window),
+               most_planes - kViewMultiple);
   const std::int64_t run_rows = std::max<std::int64_t>(1, run_pixels / width);
   commands_->region("refine_planes");
   for (std::int64_t begin = 0; begin < height; begin += run_rows) {
@@ -153,7 +152,7 @@ Expected<void> PlaneLanesStage::run_round(const SweepTask& task, Buffers& buffer
                         pixel_bytes * static_cast<std::uint64_t>(end * width - first_pixel));
     };
     const std::int64_t groups = ((width + kLanes - 1) / kLanes) * ((end - begin + rows - 1) / rows);
-    commands_->dispatch(*kernel_, {groups * kLanes}, params,
+    commands_->dispatch(kernels_.at(task.options.window), {groups * kLanes}, params,
                         {*move_buffer, buffers.neighbors, buffers.pixels, buffers.quads, buffers.last,
                          run_of(buffers.planes, sizeof(PlaneTexel)), run_of(buffers.correlations, sizeof(float))});
     if (auto done = commands_->submit(); !done) return done;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <map>
 #include <vector>
 
 #include "engine/depth/plane_moves.h"
@@ -41,8 +41,7 @@ class PlaneLanesStage {
 
   const Device* device_;
   Commands* commands_;
-  std::optional<Kernel> kernel_;
-  int window_ = 0;  ///< of kernel_
+  std::map<int, Kernel> kernels_;  ///< by window
 };
 
 }  // namespace quorum

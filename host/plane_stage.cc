@@ -35,13 +35,12 @@ PlaneStage::PlaneStage(const Device& device, Commands& commands, Kernel refine_p
     : device_(&device), commands_(&commands), refine_planes_(std::move(refine_planes)) {}
 
 Expected<void> PlaneStage::prepare_kernel(int window) {
-  if (score_planes_ && window_ == window) return {};
+  if (score_planes_.contains(window)) return {};
   auto kernel = Kernel::create(*device_, find_kernel("score_planes"),
                                {{"kWindow", static_cast<std::uint32_t>(window)},
                                 {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(window))}});
   if (!kernel) return std::unexpected(kernel.error());
-  score_planes_.emplace(std::move(*kernel));
-  window_ = window;
+  score_planes_.emplace(window, std::move(*kernel));
   return {};
 }
 
@@ -87,7 +86,7 @@ void PlaneStage::score(const SweepTask& task, const Buffers& buffers) {
                                    .threshold = rule.threshold,
                                    .confidence_scale = rule.confidence_scale};
     commands_->dispatch(
-        *score_planes_, {pixel_count(task)}, params,
+        score_planes_.at(task.options.window), {pixel_count(task)}, params,
         {buffers.reference, buffers.windows, buffers.neighbors[neighbor], buffers.best, buffers.trials});
   }
 }

@@ -1,7 +1,7 @@
 // Tilted planes on a Vulkan device: refine_planes and score_planes in turn, a move at a time.
 #pragma once
 
-#include <optional>
+#include <map>
 
 #include "engine/depth/plane_moves.h"
 #include "engine/depth/sweep_task.h"
@@ -40,8 +40,7 @@ class PlaneStage {
   const Device* device_;
   Commands* commands_;
   Kernel refine_planes_;
-  std::optional<Kernel> score_planes_;
-  int window_ = 0;  ///< of score_planes_
+  std::map<int, Kernel> score_planes_;  ///< by window
 };
 
 }  // namespace quorum

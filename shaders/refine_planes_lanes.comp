@@ -1,5 +1,5 @@
-// A round of refine_planes.comp and score_planes.comp in one, in the form for software Vulkan, which runs invocations as
-// the lanes of vector instructions: an invocation goes down a column, and at each pixel through the moves of the round,
+// A round of refine_planes.comp and score_planes.comp in one, in the form for software Vulkan, which runs invocations
+// as the lanes of vector instructions: an invocation goes down a column, at each pixel through the moves of the round,
 // and for each move through the neighbors, until a trial can't win any more. As one loop over windows, not three nested
 // ones, so that a lane goes on with its next window as soon as it has done one. Memory comes as texels
 // (sweep_depth_lanes.comp).
@@ -28,7 +28,6 @@ layout(std430, binding = 6) writeonly buffer Correlations { float correlations[]
 
 const int kLanes = 8;  // of a work group, which takes as many columns
 const int kRadius = kWindow / 2;
-const float kNoNcc = -1.0;  // below every threshold: the neighbor does not see the window
 
 PixelPlane plane_of(uvec4 texel) {
   float confidence = uintBitsToFloat(texel.w);

@@ -202,10 +202,6 @@ void RunArguments::add_depth_options(CLI::App& app) {
                  "The second pass of plane and axis divides the step by this; 1: no second pass")
       ->capture_default_str()
       ->group(group);
-  add_background_option(app, group);
-}
-
-void RunArguments::add_background_option(CLI::App& app, const std::string& group) {
   app.add_option("--mask-below", options.mask_below,
                  "Leave out a background darker than this, 0 to 1 (0.19 for the dino); 0: keep all")
       ->capture_default_str()
@@ -240,8 +236,9 @@ void RunArguments::add_fusion_options(CLI::App& app) {
   app.add_flag("--no-confirm", no_confirm,
                "The paper's confidence alone: depths don't gain or lose by what other views' depth maps say")
       ->group(group);
-  app.add_flag("--fill-holes", options.fusion.fill_holes,
-               "Close holes by space carving, also with what masks and --mask-below leave out; confidence 0 there")
+  app.add_flag(
+         "--fill-holes", options.fusion.fill_holes,
+         "Close holes by space carving, confidence 0 there; nothing is where masks and --mask-below leave out pixels")
       ->group(group);
   app.add_option("--min-confidence", min_confidence,
                  "Drop triangles of less; 1 is one view that is fully confident; 0 keeps all")
@@ -255,7 +252,11 @@ void RunArguments::add_fusion_options(CLI::App& app) {
 
 void RunArguments::add_fuse_options(CLI::App& app) {
   add_fusion_options(app);
-  add_background_option(app, kFusionGroup);
+  app.add_option("--mask-below", options.mask_below,
+                 "With --fill-holes: what is darker than this, 0 to 1, and has no depth is background; 0: none")
+      ->capture_default_str()
+      ->needs("--fill-holes")
+      ->group(kFusionGroup);
 }
 
 void RunArguments::add_device_options(CLI::App& app) {

@@ -47,9 +47,6 @@ struct RunArguments {
   void add_fuse_options(CLI::App& app);
   void add_device_options(CLI::App& app);
   void add_device_and_output_options(CLI::App& app);
-
- private:
-  void add_background_option(CLI::App& app, const std::string& group);
 };
 
 /// Adds --format and --images, which say how a scene's folder is to be read.

@@ -72,9 +72,9 @@ constexpr int kLeftShift = std::endian::native == std::endian::little ? 0 : 32;
   const Lanes<Rgba>& center = work.reference[static_cast<std::size_t>(window * window / 2)];
   const auto read = [&](int index) {
     const int offset = (index / window - radius) * reference.stride() + index % window - radius;
-    const Rgba* pixels = reference.pixels.data() + offset;
+    const Rgba* pixels = reference.pixels.data();
     Lanes<Rgba>& texels = work.reference[static_cast<std::size_t>(index)];
-    for (std::size_t i = 0; i < lanes; ++i) texels[i] = pixels[pixel[i]];
+    for (std::size_t i = 0; i < lanes; ++i) texels[i] = pixels[pixel[i] + offset];
   };
   const auto mark = [&](int index) {
     Lanes<Rgba>& texels = work.reference[static_cast<std::size_t>(index)];

@@ -7,7 +7,8 @@
 namespace quorum {
 
 SweepTask make_second_task(const SweepTask& task, const DepthMap& first) {
-  constexpr int kReach = 9;  // three rounds of refine_planes, which look three pixels far
+  // Three rounds of refine_planes, which look three pixels far; other models look at each pixel by itself.
+  const int reach = task.options.window_model == WindowModel::kSlanted ? 9 : 0;
   QUORUM_CHECK_EQ(first.depth.values.size(), task.ranges.values.size());
   SweepTask second = task;
   second.options.window = task.options.second_window;
@@ -18,9 +19,9 @@ SweepTask make_second_task(const SweepTask& task, const DepthMap& first) {
   for (int y = radius; y < height - radius; ++y) {
     for (int x = radius; x < width - radius; ++x) {
       if (first.depth.at(x, y) != 0.0F || task.ranges.at(x, y).first > task.ranges.at(x, y).last) continue;
-      for (int v = std::max(y - kReach, radius); v <= std::min(y + kReach, height - 1 - radius); ++v) {
-        const int left = std::max(x - kReach, radius);
-        const int right = std::min(x + kReach, width - 1 - radius);
+      for (int v = std::max(y - reach, radius); v <= std::min(y + reach, height - 1 - radius); ++v) {
+        const int left = std::max(x - reach, radius);
+        const int right = std::min(x + reach, width - 1 - radius);
         std::copy(&task.ranges.at(left, v), &task.ranges.at(right, v) + 1, &second.ranges.at(left, v));
       }
     }

@@ -17,8 +17,9 @@ struct CleanOptions {
   [[nodiscard]] Expected<void> check() const;
 };
 
-/// The least confidence that a vertex needs when the user names none: most, or an eighth of the median over the mesh
-/// where that is lower, so that scenes in which every surface is seen by few views keep theirs. 0 for no vertex.
+/// The least confidence that a vertex needs when the user names none: most, or an eighth of the median over the
+/// vertices where that is lower, so that scenes in which every surface is seen by few views keep theirs. 0 for no
+/// vertex. Where holes are filled, the vertices are those before triangles are made, and a few more than the mesh has.
 /// Chosen by measurement: docs/measurements/fusion_defaults.md.
 float automatic_min_confidence(const std::vector<Vertex>& vertices, float most = 0.045F);
 

@@ -207,7 +207,7 @@ FilledSurface::FilledSurface(MeasuredSurface measured, EmptySpace empty, float m
   QUORUM_CHECK_EQ(outside_.size(), grid.block_count());
   QUORUM_CHECK_EQ(measured_.weights.size(), measured_.indices.size() * kBlockVoxels);
   const double least = std::ceil(static_cast<double>(min_confidence) * kWeightScale);
-  const int least_weight = static_cast<int>(std::clamp(least, 1.0, 65535.0));
+  const int least_weight = static_cast<int>(std::clamp(least, 1.0, 65536.0));
   tbb::parallel_for(std::size_t{0}, measured_.indices.size(), [&](std::size_t slot) {
     BlockBits& bits = outside_[measured_.indices[slot]];
     bits = classify(measured_.signs[slot], measured_.weights.data() + slot * kBlockVoxels, least_weight, bits);

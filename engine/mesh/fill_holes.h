@@ -13,13 +13,14 @@ namespace quorum {
 /// What views looked through.
 struct EmptySpace {
   std::vector<BlockBits> voxels;         ///< of all blocks of the grid
-  bool beyond_grid = false;              ///< nothing is beyond the grid either: views show a background
+  bool beyond_grid = false;              ///< nothing is beyond the grid either: most views show a background
   std::vector<Eigen::Vector3d> cameras;  ///< their centers, in the world
 };
 
 /// Every voxel of the grid is outside or inside. What was seen with weight enough is what its distance says. Of the
 /// rest, empty voxels are outside, others what their distance says if they were seen at all, and inside if they were
-/// not. Empty voxels to which no free space leads (find_free_space) are inside after all.
+/// not. Empty voxels to which no free space leads (find_free_space) are inside after all. If nothing is beyond the
+/// grid, the voxels at its border are outside whatever was seen there.
 ///
 /// A vertex lies on every edge between outside and inside: the measured one if its edge has one that faces the same way
 /// and is confident enough, else a filled one in the middle, with confidence 0. Then what is not a hole is taken away
@@ -27,8 +28,7 @@ struct EmptySpace {
 /// The same bytes for any number of threads.
 class FilledSurface {
  public:
-  /// measured: with weights. min_confidence: of a voxel that counts as seen, and of a
-  /// measured vertex; >= 0.
+  /// measured: with weights. min_confidence: of a voxel that counts as seen, and of a measured vertex; >= 0.
   FilledSurface(MeasuredSurface measured, EmptySpace empty, float min_confidence);
 
   /// Vertices, with those that will be dropped.

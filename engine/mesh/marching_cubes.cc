@@ -137,6 +137,13 @@ Vertex make_vertex(const Voxel& from, const Voxel& to, const Eigen::Vector3d& po
 
 }  // namespace
 
+void MarchingCubes::reserve(std::size_t blocks) {
+  surface_.indices.reserve(blocks);
+  surface_.signs.reserve(blocks);
+  surface_.first_vertex.reserve(blocks);
+  if (keeps_weights_) surface_.weights.reserve(blocks * kBlockVoxels);
+}
+
 void MarchingCubes::add(const BlockPool& pool, std::size_t count) {
   QUORUM_CHECK_LE(count, pool.indices.size());
   MeasuredSurface& s = surface_;

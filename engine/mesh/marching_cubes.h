@@ -31,14 +31,17 @@ struct MeasuredSurface {
 /// Runs on all cores; the same bytes for any number of threads.
 ///
 /// The volume may come in parts, so that it never lies in memory as a whole: where the sign changes between two seen
-/// voxels, a vertex is made while they are there; of everything else, two bits a voxel are kept. The mesh is the same
-/// for any parts.
+/// voxels, a vertex is made while they are there; of everything else, two bits a voxel are kept, and the weight if
+/// asked for. The mesh is the same for any parts.
 class MarchingCubes {
  public:
   /// keeps_weights: for a surface whose holes are filled.
   explicit MarchingCubes(const VoxelGrid& grid, bool keeps_weights = false) : keeps_weights_(keeps_weights) {
     surface_.grid = grid;
   }
+
+  /// Makes room for so many blocks, so that memory for what is kept of them is not taken twice.
+  void reserve(std::size_t blocks);
 
   /// Takes the first count blocks of the pool, which follow those taken before. The pool also holds, of the stored
   /// blocks that lie one further along x, y or z, those that were not taken yet.

@@ -24,7 +24,7 @@ using Blocks = std::vector<std::uint32_t>;
 struct CollectedBlocks {
   std::vector<Blocks> of_view;
   Blocks all;
-  bool background = false;  ///< that carving saw
+  std::size_t views_with_background = 0;  ///< that carving saw, around the object
 };
 
 /// What a view takes while it is merged: its maps and photograph, and the next view's, which are read meanwhile; a bit
@@ -51,6 +51,13 @@ Expected<void> mark_background(const FusionInput& input, int view, Grid<float>& 
   for (std::size_t pixel = 0; pixel < (*mask)->values.size(); ++pixel)
     if ((*mask)->values[pixel] == 0 && depth.values[pixel] <= 0.0F) depth.values[pixel] = kBackgroundDepth;
   return {};
+}
+
+/// Whether the view shows a background around the object, not just a few pixels that a mask leaves out.
+bool has_background(const Grid<float>& depth) {
+  constexpr std::int64_t kLeastShare = 10;  // one in so many pixels
+  return kLeastShare * std::ranges::count(depth.values, kBackgroundDepth) >=
+         static_cast<std::int64_t>(depth.values.size());
 }
 
 /// What is read of a view.
@@ -118,7 +125,7 @@ Expected<CollectedBlocks> collect_blocks(const FusionInput& input) {
     input.report.block_views += blocks->size();
     collected.of_view.push_back(std::move(*blocks));
     if (!input.options.fill_holes) return {};
-    collected.background = collected.background || std::ranges::count(view.map.depth.values, kBackgroundDepth) > 0;
+    collected.views_with_background += has_background(view.map.depth) ? 1 : 0;
     return input.backend.carve_blocks(view);
   });
   if (!done) return std::unexpected(done.error());
@@ -201,11 +208,12 @@ Expected<Mesh> fuse_views(const FusionInput& input) {
     auto read = input.backend.read_empty();
     if (!read) return std::unexpected(read.error());
     empty.voxels = std::move(*read);
-    empty.beyond_grid = collected->background;
+    empty.beyond_grid = 2 * collected->views_with_background > input.views.size();
     for (const int view : input.views)
       empty.cameras.push_back(input.scene.views[static_cast<std::size_t>(view)].camera.center());
   }
   MarchingCubes surface(input.grid, input.options.fill_holes);
+  surface.reserve(collected->all.size());
   for (std::size_t first = 0; first < collected->all.size();) {
     const auto slab = next_slab(input, collected->all, first);
     if (!slab) return std::unexpected(slab.error());

@@ -1,5 +1,6 @@
 // A voxel against a range surface: where it projects, in which triangle, and how far before it it lies.
-// Twin: engine/volume/block_on_surface.h. For kernels that declare IntegrateParams p and the buffers depth, cells, weights.
+// For kernels that declare IntegrateParams p and the buffers depth, cells and weights.
+// Twin: engine/volume/block_on_surface.h.
 
 // The projection, row by row.
 struct Projector {

@@ -36,12 +36,22 @@ FusionScene::FusionScene(bool hole) {
   }
 }
 
-Expected<Mesh> FusionScene::fuse(Backend& backend, RunReport& report, std::uint64_t memory_bytes) const {
-  return fuse(backend, report, {}, memory_bytes, 0.0);
+void FusionScene::mask_pixel(std::size_t view, int x, int y) {
+  ColorImage mask(scene_.views[view].width, scene_.views[view].height, make_rgb(255, 255, 255));
+  mask.at(x, y) = make_rgb(0, 0, 0);
+  scene_.views[view].mask_path = folder_.path() / "mask.png";
+  write_png(scene_.views[view].mask_path, mask).value();
 }
 
-Expected<Mesh> FusionScene::fill(Backend& backend, RunReport& report, double mask_below) const {
+Expected<Mesh> FusionScene::fuse(Backend& backend, RunReport& report, std::uint64_t memory_bytes) const {
   FusionOptions options;
+  options.voxel_size = kVoxelSize;
+  return fuse(backend, report, options, memory_bytes, 0.0);
+}
+
+Expected<Mesh> FusionScene::fill(Backend& backend, RunReport& report, double mask_below, double voxel_size) const {
+  FusionOptions options;
+  options.voxel_size = voxel_size;
   options.fill_holes = true;
   return fuse(backend, report, options, 0, mask_below);
 }
@@ -49,7 +59,6 @@ Expected<Mesh> FusionScene::fill(Backend& backend, RunReport& report, double mas
 Expected<Mesh> FusionScene::fuse(Backend& backend, RunReport& report, const FusionOptions& given,
                                  std::uint64_t memory_bytes, double mask_below) const {
   FusionOptions options = given;
-  options.voxel_size = 0.05;
   options.truncation = 0.3;
   const VoxelGrid grid = make_voxel_grid(scene_, options).value();
   const Workspace workspace = Workspace::open(folder_.path()).value();

@@ -16,7 +16,12 @@ class FusionScene {
   /// The surface, and what was done for it.
   Expected<Mesh> fuse(Backend& backend, RunReport& report, std::uint64_t memory_bytes = 0) const;
   /// The same with filled holes. mask_below: as ImageStore takes it.
-  Expected<Mesh> fill(Backend& backend, RunReport& report, double mask_below) const;
+  Expected<Mesh> fill(Backend& backend, RunReport& report, double mask_below, double voxel_size = kVoxelSize) const;
+
+  static constexpr double kVoxelSize = 0.05;
+
+  /// Gives a view a mask that leaves out one pixel.
+  void mask_pixel(std::size_t view, int x, int y);
 
   /// Cosine of the angle between a point of the hole and its center, at least.
   static constexpr double kHoleCosine = 0.94;

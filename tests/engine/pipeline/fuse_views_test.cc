@@ -58,10 +58,11 @@ TEST(FuseViews, ABudgetThatHoldsNoSlabIsRefusedWithTheLeastThatWouldDo) {
 }
 
 /// All but the normal, which depends on the triangles around.
-using VertexKey = std::array<float, 5>;
+using VertexKey = std::array<std::uint32_t, 5>;
 VertexKey key_of(const Vertex& vertex) {
-  return {vertex.position.x(), vertex.position.y(), vertex.position.z(), std::bit_cast<float>(vertex.color),
-          vertex.confidence};
+  const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
+  return {bits(vertex.position.x()), bits(vertex.position.y()), bits(vertex.position.z()), vertex.color,
+          bits(vertex.confidence)};
 }
 
 constexpr double kDark = 0.02;
@@ -108,6 +109,15 @@ TEST(FuseViews, SlabsAndThreadsFillHolesAlike) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   RunReport report;
   EXPECT_TRUE(same_mesh(scene.fill(cpu, report, kDark).value(), whole));
+}
+
+TEST(FuseViews, OnePixelThatAMaskLeavesOutIsNotABackground) {
+  CpuBackend cpu;
+  RunReport report;
+  FusionScene scene(true);
+  const Mesh expected = scene.fill(cpu, report, 0.0).value();
+  scene.mask_pixel(0, 3, 3);
+  EXPECT_TRUE(same_mesh(scene.fill(cpu, report, 0.0).value(), expected));
 }
 
 TEST(FuseViews, AClosedSurfaceGetsNoFilledVertex) {
