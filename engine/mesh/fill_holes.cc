@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/core/check.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::uint64_t kAll = ~std::uint64_t{0};
 constexpr int kSmoothingRounds = 50;
+constexpr double kLargestHole = 0.01;  // share of the measured vertices, where no background is known: docs/quality.md
 
 /// Whether the voxels of a block, which was seen, are outside. empty: its voxels.
 BlockBits classify(const BlockSigns& signs, const std::uint16_t* weights, int least_weight, const BlockBits& empty) {
@@ -202,7 +204,10 @@ void drop_unused(Mesh& mesh) {
 }  // namespace
 
 FilledSurface::FilledSurface(MeasuredSurface measured, EmptySpace empty, float min_confidence)
-    : measured_(std::move(measured)), outside_(std::move(empty.voxels)), min_confidence_(min_confidence) {
+    : measured_(std::move(measured)),
+      outside_(std::move(empty.voxels)),
+      min_confidence_(min_confidence),
+      knows_background_(empty.beyond_grid) {
   const VoxelGrid& grid = measured_.grid;
   QUORUM_CHECK_EQ(outside_.size(), grid.block_count());
   QUORUM_CHECK_EQ(measured_.weights.size(), measured_.indices.size() * kBlockVoxels);
@@ -281,7 +286,7 @@ Mesh FilledSurface::extract() {
   });
   measured_ = {};
   outside_ = {};
-  drop_unbounded(mesh, at_border);
+  drop_unbounded(mesh, at_border, knows_background_ ? std::numeric_limits<double>::infinity() : kLargestHole);
   drop_unused(mesh);
   mesh.vertices.shrink_to_fit();
   mesh.triangles.shrink_to_fit();
@@ -299,7 +304,7 @@ void settle_filled(Mesh& mesh) {
   add_normals(mesh);
 }
 
-void drop_unbounded(Mesh& mesh, const std::vector<char>& at_border) {
+void drop_unbounded(Mesh& mesh, const std::vector<char>& at_border, double largest_share) {
   DisjointSets patches(mesh.vertices.size());
   const auto filled = [&](std::uint32_t vertex) { return is_filled(mesh.vertices[vertex]); };
   for (const auto& [a, b, c] : mesh.triangles)
@@ -315,11 +320,20 @@ void drop_unbounded(Mesh& mesh, const std::vector<char>& at_border) {
       if (at_border[corner] != 0) unbounded[patches.find(corner)] = 1;
     }
   }
+  std::vector<std::uint32_t> size(mesh.vertices.size());  // at representatives of patches
+  std::size_t measured_count = 0;
+  for (std::uint32_t vertex = 0; vertex < size.size(); ++vertex) {
+    if (filled(vertex))
+      ++size[patches.find(vertex)];
+    else
+      ++measured_count;
+  }
+  const double largest = largest_share * static_cast<double>(measured_count);
   std::erase_if(mesh.triangles, [&](const std::array<std::uint32_t, 3>& triangle) {
     return std::ranges::any_of(triangle, [&](std::uint32_t corner) {
       if (!filled(corner)) return false;
       const std::uint32_t patch = patches.find(corner);
-      return unbounded[patch] != 0 || measured[patch] == 0;
+      return unbounded[patch] != 0 || measured[patch] == 0 || static_cast<double>(size[patch]) > largest;
     });
   });
 }

@@ -47,6 +47,7 @@ class FilledSurface {
   std::vector<std::uint32_t> active_;  // blocks with cubes that are not all outside or all inside
   std::size_t vertex_count_ = 0;
   float min_confidence_;
+  bool knows_background_;
 };
 
 /// True if the vertex was filled in.
@@ -54,8 +55,10 @@ inline bool is_filled(const Vertex& vertex) { return vertex.confidence == 0.0F; 
 
 /// Drops the triangles of filled vertices that are no hole. Filled vertices that triangles join make a patch. A patch
 /// that reaches the border of the grid is the border of what is unknown beside the object, as it lies where no view has
-/// a background; one that touches no measured vertex is unknown space by itself. at_border: of each vertex.
-void drop_unbounded(Mesh& mesh, const std::vector<char>& at_border);
+/// a background; one that touches no measured vertex is unknown space by itself. So is a large one where no background
+/// is known: it spans what views could not look through. at_border: of each vertex. largest_share: vertices of a patch,
+/// at most, as a share of the measured ones.
+void drop_unbounded(Mesh& mesh, const std::vector<char>& at_border, double largest_share);
 
 /// Colors filled vertices by the means of their neighbors, ring by ring from the measured ones, and moves them to the
 /// mean of their neighbors, rounds times; measured vertices stay. The staircase of voxels becomes a membrane.

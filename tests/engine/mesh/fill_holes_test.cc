@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/support/mesh_measures.h"
 
@@ -57,11 +58,17 @@ EmptySpace empty_where(Predicate is_empty) {
 double radius(const Eigen::Vector3d& at) { return (at - Eigen::Vector3d::Constant(15.3)).norm(); }
 bool below_cap(const Eigen::Vector3d& at) { return at.z() < 21.0; }
 
+bool beside_ball(const Eigen::Vector3d& at) { return radius(at) > 10.0; }
+
+EmptySpace before_background(EmptySpace empty) {
+  empty.beyond_grid = true;
+  return empty;
+}
+
 std::int64_t count_filled(const Mesh& mesh) { return std::ranges::count_if(mesh.vertices, is_filled); }
 
 TEST(FillHoles, AMissingCapIsClosedWhereEmptySpaceEnds) {
-  FilledSurface surface(measure_ball(255, below_cap),
-                        empty_where([](const Eigen::Vector3d& at) { return radius(at) > 10.0; }), 0.0F);
+  FilledSurface surface(measure_ball(255, below_cap), before_background(empty_where(beside_ball)), 0.0F);
   const std::size_t vertex_count = surface.vertex_count();
   const Mesh mesh = surface.finish();
   EXPECT_EQ(mesh.vertices.size(), vertex_count);
@@ -91,11 +98,22 @@ TEST(FillHoles, WhatReachesTheBorderOfTheGridIsNoHole) {
   EXPECT_EQ(count_filled(open), 0);
   EXPECT_GT(open.triangles.size(), 500U);
   // With a background, what lies beyond the grid is known.
-  EmptySpace bounded = empty_where(half);
-  bounded.beyond_grid = true;
-  const Mesh closed = FilledSurface(measure_ball(255, measured), std::move(bounded), 0.0F).finish();
+  const Mesh closed = FilledSurface(measure_ball(255, measured), before_background(empty_where(half)), 0.0F).finish();
   EXPECT_TRUE(measure_mesh(closed).closed);
   EXPECT_GT(count_filled(closed), 1000);
+}
+
+TEST(FillHoles, WithoutABackgroundOnlySmallHolesAreFilled) {
+  const Mesh open = FilledSurface(measure_ball(255, below_cap), empty_where(beside_ball), 0.0F).finish();
+  EXPECT_EQ(count_filled(open), 0);
+  EXPECT_FALSE(measure_mesh(open).closed);
+  const auto but_one_column = [](const Eigen::Vector3d& at) {
+    return at.x() < 24.5 || std::abs(at.y() - 15.0) > 0.5 || std::abs(at.z() - 15.0) > 0.5;
+  };
+  const Mesh closed = FilledSurface(measure_ball(255, but_one_column), empty_where(beside_ball), 0.0F).finish();
+  EXPECT_GT(count_filled(closed), 0);
+  EXPECT_LE(100 * count_filled(closed), static_cast<std::int64_t>(closed.vertices.size()));
+  EXPECT_TRUE(measure_mesh(closed).closed);
 }
 
 TEST(FillHoles, AWeakSurfaceInEmptySpaceIsCarvedAwayAndAStrongOneStays) {
@@ -110,7 +128,6 @@ TEST(FillHoles, AWeakSurfaceInEmptySpaceIsCarvedAwayAndAStrongOneStays) {
 
 TEST(FillHoles, AWeakSurfaceThatNoViewLooksThroughIsFilledIn) {
   const auto everywhere = [](const Eigen::Vector3d&) { return true; };
-  const auto beside = [](const Eigen::Vector3d& at) { return radius(at) > 10.0; };
   const auto cap_is_weak = [&](std::int32_t weight) {
     MeasuredSurface surface = measure_ball(255, everywhere);
     const MeasuredSurface weak = measure_ball(weight, everywhere);
@@ -118,7 +135,7 @@ TEST(FillHoles, AWeakSurfaceThatNoViewLooksThroughIsFilledIn) {
       if (place / kBlockVoxels / 16 >= 2) surface.weights[place] = weak.weights[place];
     for (Vertex& vertex : surface.vertices)
       if (vertex.position.z() >= 16.0F) vertex.confidence = static_cast<float>(weight) / 255.0F;
-    return FilledSurface(std::move(surface), empty_where(beside), 0.5F).finish();
+    return FilledSurface(std::move(surface), before_background(empty_where(beside_ball)), 0.5F).finish();
   };
   EXPECT_EQ(count_filled(cap_is_weak(200)), 0);
   const Mesh mesh = cap_is_weak(100);
@@ -129,9 +146,7 @@ TEST(FillHoles, AWeakSurfaceThatNoViewLooksThroughIsFilledIn) {
 
 TEST(FillHoles, NothingMeasuredGivesNothing) {
   const auto nowhere = [](const Eigen::Vector3d&) { return false; };
-  const Mesh mesh = FilledSurface(measure_ball(255, nowhere),
-                                  empty_where([](const Eigen::Vector3d& at) { return radius(at) > 10.0; }), 0.0F)
-                        .finish();
+  const Mesh mesh = FilledSurface(measure_ball(255, nowhere), empty_where(beside_ball), 0.0F).finish();
   EXPECT_TRUE(mesh.vertices.empty());
 }
 
