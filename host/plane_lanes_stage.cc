@@ -65,23 +65,14 @@ std::int64_t rows_per_lane(const SweepTask& task, std::int64_t moves, std::uint3
 
 }  // namespace
 
-PlaneLanesStage::PlaneLanesStage(const Device& device, Commands& commands) : device_(&device), commands_(&commands) {}
+PlaneLanesStage::PlaneLanesStage(const Device& device, Commands& commands)
+    : device_(&device), commands_(&commands), kernels_(device, "refine_planes_lanes") {}
 
 bool PlaneLanesStage::fits(const SweepTask& task) const {
   const DeviceInfo& info = device_->info();
   const std::uint64_t pixels = quad_count(*task.reference) * (sizeof(PlanePixel) / sizeof(Texel));
   const std::uint64_t texels = std::max(all_quads(task), pixels);
   return texels <= info.max_texel_buffer_elements && texels <= info.max_allocation / sizeof(Texel);
-}
-
-Expected<void> PlaneLanesStage::prepare_kernel(int window) {
-  if (kernels_.contains(window)) return {};
-  auto kernel = Kernel::create(*device_, find_kernel("refine_planes_lanes"),
-                               {{"kWindow", static_cast<std::uint32_t>(window)},
-                                {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(window))}});
-  if (!kernel) return std::unexpected(kernel.error());
-  kernels_.emplace(window, std::move(*kernel));
-  return {};
 }
 
 Expected<Buffer> PlaneLanesStage::upload_images(const SweepTask& task) const {
@@ -162,7 +153,7 @@ Expected<void> PlaneLanesStage::run_round(const SweepTask& task, Buffers& buffer
 }
 
 Expected<Grid<PixelPlane>> PlaneLanesStage::run(const SweepTask& task, const Grid<PixelVote>& first_pass) {
-  if (auto ready = prepare_kernel(task.options.window); !ready) return std::unexpected(ready.error());
+  if (auto ready = kernels_.prepare(task.options.window); !ready) return std::unexpected(ready.error());
   auto buffers = upload(task, first_pass);
   if (!buffers) return std::unexpected(buffers.error());
   if (auto done = run_round(task, *buffers, {PlaneMove{}}, true); !done) return std::unexpected(done.error());

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <vector>
 
 #include "engine/depth/plane_moves.h"
 #include "engine/depth/sweep_task.h"
 #include "host/buffer.h"
 #include "host/commands.h"
-#include "host/kernel.h"
+#include "host/window_kernels.h"
 
 namespace quorum {
 
@@ -34,14 +33,13 @@ class PlaneLanesStage {
     Buffer correlations;
   };
 
-  Expected<void> prepare_kernel(int window);
   [[nodiscard]] Expected<Buffer> upload_images(const SweepTask& task) const;
   [[nodiscard]] Expected<Buffers> upload(const SweepTask& task, const Grid<PixelVote>& first_pass) const;
   Expected<void> run_round(const SweepTask& task, Buffers& buffers, const std::vector<PlaneMove>& moves, bool is_first);
 
   const Device* device_;
   Commands* commands_;
-  std::map<int, Kernel> kernels_;  ///< by window
+  WindowKernels kernels_;
 };
 
 }  // namespace quorum

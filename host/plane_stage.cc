@@ -32,17 +32,10 @@ Expected<PlaneStage> PlaneStage::create(const Device& device, Commands& commands
 }
 
 PlaneStage::PlaneStage(const Device& device, Commands& commands, Kernel refine_planes)
-    : device_(&device), commands_(&commands), refine_planes_(std::move(refine_planes)) {}
-
-Expected<void> PlaneStage::prepare_kernel(int window) {
-  if (score_planes_.contains(window)) return {};
-  auto kernel = Kernel::create(*device_, find_kernel("score_planes"),
-                               {{"kWindow", static_cast<std::uint32_t>(window)},
-                                {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(window))}});
-  if (!kernel) return std::unexpected(kernel.error());
-  score_planes_.emplace(window, std::move(*kernel));
-  return {};
-}
+    : device_(&device),
+      commands_(&commands),
+      refine_planes_(std::move(refine_planes)),
+      score_planes_(device, "score_planes") {}
 
 Expected<PlaneStage::Buffers> PlaneStage::upload(const SweepTask& task, const Grid<PixelVote>& first_pass) const {
   auto reference = Buffer::of(*device_, task.reference->pixels);
@@ -108,7 +101,7 @@ void PlaneStage::refine(const SweepTask& task, const Buffers& buffers, const Pla
 }
 
 Expected<Grid<PixelPlane>> PlaneStage::run(const SweepTask& task, const Grid<PixelVote>& first_pass) {
-  if (auto ready = prepare_kernel(task.options.window); !ready) return std::unexpected(ready.error());
+  if (auto ready = score_planes_.prepare(task.options.window); !ready) return std::unexpected(ready.error());
   const auto buffers = upload(task, first_pass);
   if (!buffers) return std::unexpected(buffers.error());
   score(task, *buffers);

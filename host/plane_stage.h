@@ -1,13 +1,12 @@
 // Tilted planes on a Vulkan device: refine_planes and score_planes in turn, a move at a time.
 #pragma once
 
-#include <map>
-
 #include "engine/depth/plane_moves.h"
 #include "engine/depth/sweep_task.h"
 #include "host/buffer.h"
 #include "host/commands.h"
 #include "host/kernel.h"
+#include "host/window_kernels.h"
 
 namespace quorum {
 
@@ -32,7 +31,6 @@ class PlaneStage {
   };
 
   PlaneStage(const Device& device, Commands& commands, Kernel refine_planes);
-  Expected<void> prepare_kernel(int window);
   [[nodiscard]] Expected<Buffers> upload(const SweepTask& task, const Grid<PixelVote>& first_pass) const;
   void score(const SweepTask& task, const Buffers& buffers);
   void refine(const SweepTask& task, const Buffers& buffers, const PlaneMove& move, int tried, bool ends_round);
@@ -40,7 +38,7 @@ class PlaneStage {
   const Device* device_;
   Commands* commands_;
   Kernel refine_planes_;
-  std::map<int, Kernel> score_planes_;  ///< by window
+  WindowKernels score_planes_;
 };
 
 }  // namespace quorum
