@@ -7,7 +7,7 @@
 # include what stands beside them and under shaders/. A folder without kernels gives an empty table.
 function(quorum_kernels target folder table_function)
   set(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
-  set(generated ${CMAKE_BINARY_DIR}/kernels/${target})
+  set(generated ${PROJECT_BINARY_DIR}/kernels/${target})
   file(MAKE_DIRECTORY ${generated})
   file(GLOB kernels CONFIGURE_DEPENDS ${folder}/*.comp)
   list(SORT kernels)
@@ -48,8 +48,8 @@ std::span<const KernelCode> @table_function@() {
 }  // namespace quorum
 " @ONLY)
   add_library(${target} OBJECT ${generated}/kernel_table.cc ${headers})
-  target_include_directories(${target} PRIVATE ${generated} ${root})
-  target_link_libraries(${target} PRIVATE quorum_options fmt::fmt)
+  quorum_options(${target})
+  target_include_directories(${target} PRIVATE ${generated})
 endfunction()
 
 quorum_kernels(quorum_kernels ${CMAKE_CURRENT_LIST_DIR}/../shaders kernel_table)

@@ -1,11 +1,22 @@
 # The libraries that others keep well. All are Debian 12 packages; tools/packages.txt lists them.
+# Their targets are visible to a project that adds this one, since the headers of the engine show some of them.
+set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs)
 find_package(TBB REQUIRED)
+# In debug builds it would define TBB_USE_DEBUG for those who link it, and headers that are compiled once for all targets
+# (cmake/Targets.cmake) need the same definitions in all of them.
+set_property(TARGET TBB::tbb PROPERTY INTERFACE_COMPILE_DEFINITIONS "")
 find_package(fmt REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(embree 3 REQUIRED)
+find_package(meshoptimizer REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(pugixml REQUIRED)
+find_library(HEIF_LIBRARY heif REQUIRED)
+find_path(STB_INCLUDE stb/stb_rect_pack.h REQUIRED)
 if(QUORUM_VULKAN)
   find_package(Vulkan REQUIRED)
   find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)

@@ -4,12 +4,32 @@ include(GoogleTest)
 file(GLOB support_sources CONFIGURE_DEPENDS tests/support/*.cc)
 list(FILTER support_sources EXCLUDE REGEX "vulkan_test\\.cc$")
 add_library(quorum_test_support STATIC ${support_sources})
+quorum_options(quorum_test_support TEST)
 target_link_libraries(quorum_test_support PUBLIC quorum_engine GTest::gtest)
+target_compile_definitions(quorum_test_support PUBLIC QUORUM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+
+# Half of the time of a sanitized test run goes into these, which compare the bytes of whole runs, and of large inputs. The
+# code that they run is also run by smaller tests; they themselves run in the optimized build alone.
+set(long_tests
+  SweepDepth.Rows* SweepDepth.Shared* RefinePlanes.Tiles* FuseViews.Slabs* WorkGuard.* CoarseSweep.FindsTheWalls*
+  CoarseSweep.FindsNothing* FindRangesInside.Gives* RenderTemple.Texture* *Conformance.TheCpu*
+  RunExperiments.* RunMakerTest.RunsThat* RunMakerTest.Scenes* RunMakerTest.Broken* RunMakerTest.ARunIs*
+  PointScene.MeshIs* PointScene.MovedFar* PointScene.AllFormats* PointScene.Bounds*
+  BackendsParity.ImagesOf* BackendsParity.DepthMapsAreEqualWhere* SweepDepth*Parity.Every* SweepDepth*Parity.TheSecond*
+  Reconstruct.MeshIsNear* Reconstruct.Threads* Reconstruct.DepthThenFuse* Reconstruct.FillHoles* Reconstruct.OtherOptions*
+  Reconstruct.Progress* Reconstruct.Vulkan* Reconstruct.ViewsWithout* Reconstruct.SceneWithout* Reconstruct.RenderByError*
+  Plans.Sizes* Report.Names* Report.Where*)
+set(tests_to_run "*")
+if(QUORUM_SANITIZE)
+  list(JOIN long_tests ":" tests_to_run)
+  string(PREPEND tests_to_run "-")
+endif()
 
 function(quorum_test name)
   add_executable(${name} ${ARGN})
+  quorum_options(${name} TEST)
   target_link_libraries(${name} PRIVATE quorum_test_support GTest::gtest_main nlohmann_json::nlohmann_json TBB::tbb)
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 900)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "${tests_to_run}" PROPERTIES TIMEOUT 900)
 endfunction()
 
 file(GLOB_RECURSE engine_tests CONFIGURE_DEPENDS tests/engine/*_test.cc)
@@ -18,15 +38,30 @@ quorum_test(engine_tests ${engine_tests})
 if(QUORUM_VULKAN)
   file(GLOB host_tests CONFIGURE_DEPENDS tests/host/*_test.cc tests/parity/*_test.cc)
   if(host_tests)
-    quorum_kernels(quorum_test_kernels ${CMAKE_SOURCE_DIR}/tests/host/kernels test_kernel_table)
+    quorum_kernels(quorum_test_kernels ${PROJECT_SOURCE_DIR}/tests/host/kernels test_kernel_table)
     quorum_test(host_tests ${host_tests} tests/support/vulkan_test.cc)
     target_link_libraries(host_tests PRIVATE quorum_host quorum_test_kernels Vulkan::Headers)
   endif()
 endif()
 
+# The program of a build without Vulkan. Two of its files differ, the objects of the others are those of quorum.
+set(program_without_vulkan quorum)
+if(QUORUM_VULKAN)
+  set(program_without_vulkan quorum_without_vulkan)
+  set(tools_that_differ tools/devices_command.cc tools/open_backend.cc)
+  set_source_files_properties(${tools_that_differ} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  add_executable(quorum_without_vulkan ${tools_that_differ}
+    "$<FILTER:$<TARGET_OBJECTS:quorum>,EXCLUDE,/(devices_command|open_backend)[.]cc>")
+  quorum_options(quorum_without_vulkan)
+  target_link_libraries(quorum_without_vulkan
+    PRIVATE quorum_engine CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)
+endif()
+
 file(GLOB tool_tests CONFIGURE_DEPENDS tests/tools/*_test.cc)
 if(tool_tests)
   quorum_test(tool_tests ${tool_tests})
-  target_compile_definitions(tool_tests PRIVATE QUORUM_PROGRAM="$<TARGET_FILE:quorum>")
-  add_dependencies(tool_tests quorum)
+  target_compile_definitions(tool_tests PRIVATE
+    QUORUM_PROGRAM="$<TARGET_FILE:quorum>"
+    QUORUM_PROGRAM_WITHOUT_VULKAN="$<TARGET_FILE:${program_without_vulkan}>")
+  add_dependencies(tool_tests quorum ${program_without_vulkan})
 endif()

@@ -44,12 +44,40 @@ Expected<void> make_staging(Device::State& device) {
   });
 }
 
-}  // namespace
+void copy(std::span<const std::byte> values, std::byte* mapped) { std::memcpy(mapped, values.data(), values.size()); }
+void copy(std::span<std::byte> values, std::byte* mapped) { std::memcpy(values.data(), mapped, values.size()); }
 
-Buffer::Buffer(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Buffer::Buffer(Buffer&& other) noexcept = default;
-Buffer& Buffer::operator=(Buffer&& other) noexcept = default;
-Buffer::~Buffer() = default;
+// Values that are const go to the buffer, from offset on, others come from there: at once where it is mapped, else
+// piece by piece through the staging buffer.
+template <typename Byte>
+Expected<void> transfer(const Buffer::State& buffer, std::span<Byte> values, std::uint64_t offset) {
+  constexpr bool kUpload = std::is_const_v<Byte>;
+  QUORUM_CHECK_LE(offset, buffer.size);
+  QUORUM_CHECK_LE(values.size(), buffer.size - offset);
+  if (values.empty()) return {};
+  if (buffer.allocation.mapped != nullptr) {
+    copy(values, buffer.allocation.mapped + offset);
+    return {};
+  }
+  Device::State& device = *buffer.device;
+  const std::scoped_lock lock(device.transfer_mutex);
+  QUORUM_TRY(make_staging(device));
+  const vk::Buffer storage = *buffer.allocation.buffer;
+  const vk::Buffer staging = *device.staging.buffer;
+  for (std::uint64_t begin = 0; begin < values.size(); begin += kStagingBytes) {
+    const auto piece = values.subspan(begin, std::min(kStagingBytes, values.size() - begin));
+    const vk::BufferCopy up{.dstOffset = offset + begin, .size = piece.size()};
+    const vk::BufferCopy down{.srcOffset = offset + begin, .size = piece.size()};
+    if (kUpload) copy(piece, device.staging.mapped);
+    QUORUM_TRY(device.transfer_now(kUpload ? "uploading a buffer" : "downloading a buffer", [&](const auto& commands) {
+      kUpload ? commands.copyBuffer(staging, storage, up) : commands.copyBuffer(storage, staging, down);
+    }));
+    if (!kUpload) copy(piece, device.staging.mapped);
+  }
+  return {};
+}
+
+}  // namespace
 
 Expected<Buffer> Buffer::create(const Device& device, std::uint64_t size_bytes, BufferUse use) {
   const DeviceInfo& info = device.info();
@@ -62,7 +90,7 @@ Expected<Buffer> Buffer::create(const Device& device, std::uint64_t size_bytes, 
                                in_mib(size_bytes), size_bytes, in_mib(limit), limit, info.name));
   }
   return guarded(fmt::format("allocating a buffer of {} on {}", in_mib(size_bytes), info.name), [&] {
-    auto state = std::make_unique<State>();
+    auto state = std::make_shared<State>();
     state->device = device.state();
     state->size = size_bytes;
     state->capacity = (std::max<std::uint64_t>(size_bytes, 1) + kWord - 1) / kWord * kWord;
@@ -72,58 +100,19 @@ Expected<Buffer> Buffer::create(const Device& device, std::uint64_t size_bytes, 
 }
 
 Expected<Buffer> Buffer::of_bytes(const Device& device, std::span<const std::byte> bytes, BufferUse use) {
-  auto buffer = create(device, bytes.size(), use);
-  if (!buffer) return buffer;
-  if (auto done = buffer->upload_bytes(bytes, 0); !done) return std::unexpected(done.error());
+  QUORUM_ASSIGN(auto buffer, create(device, bytes.size(), use));
+  QUORUM_TRY(buffer.upload_bytes(bytes, 0));
   return buffer;
 }
 
-std::uint64_t Buffer::size() const { return state_->size; }
+std::uint64_t Buffer::size() const { return state_ == nullptr ? 0 : state_->size; }
 
 Expected<void> Buffer::upload_bytes(std::span<const std::byte> bytes, std::uint64_t offset) {
-  QUORUM_CHECK_LE(offset, state_->size);
-  QUORUM_CHECK_LE(bytes.size(), state_->size - offset);
-  if (bytes.empty()) return {};
-  if (state_->allocation.mapped != nullptr) {
-    std::memcpy(state_->allocation.mapped + offset, bytes.data(), bytes.size());
-    return {};
-  }
-  Device::State& device = *state_->device;
-  const std::scoped_lock lock(device.transfer_mutex);
-  if (auto made = make_staging(device); !made) return made;
-  for (std::uint64_t done = 0; done < bytes.size(); done += kStagingBytes) {
-    const std::uint64_t size = std::min(kStagingBytes, bytes.size() - done);
-    std::memcpy(device.staging.mapped, bytes.data() + done, size);
-    const auto copied = device.transfer_now("uploading a buffer", [&](const vk::raii::CommandBuffer& commands) {
-      commands.copyBuffer(*device.staging.buffer, *state_->allocation.buffer,
-                          vk::BufferCopy{.dstOffset = offset + done, .size = size});
-    });
-    if (!copied) return copied;
-  }
-  return {};
+  return transfer(*state_, bytes, offset);
 }
 
 Expected<void> Buffer::download_bytes(std::span<std::byte> bytes, std::uint64_t offset) const {
-  QUORUM_CHECK_LE(offset, state_->size);
-  QUORUM_CHECK_LE(bytes.size(), state_->size - offset);
-  if (bytes.empty()) return {};
-  if (state_->allocation.mapped != nullptr) {
-    std::memcpy(bytes.data(), state_->allocation.mapped + offset, bytes.size());
-    return {};
-  }
-  Device::State& device = *state_->device;
-  const std::scoped_lock lock(device.transfer_mutex);
-  if (auto made = make_staging(device); !made) return made;
-  for (std::uint64_t done = 0; done < bytes.size(); done += kStagingBytes) {
-    const std::uint64_t size = std::min(kStagingBytes, bytes.size() - done);
-    const auto copied = device.transfer_now("downloading a buffer", [&](const vk::raii::CommandBuffer& commands) {
-      commands.copyBuffer(*state_->allocation.buffer, *device.staging.buffer,
-                          vk::BufferCopy{.srcOffset = offset + done, .size = size});
-    });
-    if (!copied) return copied;
-    std::memcpy(bytes.data() + done, device.staging.mapped, size);
-  }
-  return {};
+  return transfer(*state_, bytes, offset);
 }
 
 Expected<void> Buffer::fill_zero() {

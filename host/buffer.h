@@ -7,6 +7,7 @@
 #include <ranges>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "host/device.h"
@@ -22,10 +23,12 @@ concept PlainValues = std::ranges::contiguous_range<Range> && std::ranges::sized
 enum class BufferUse { kWhole, kInParts };
 
 /// A storage buffer in the memory of a device. Transfers are done when they return; they must not overlap a submission
-/// that uses the buffer, and need none to have come before. Move-only; a moved-from buffer may only be assigned to or
-/// destroyed.
+/// that uses the buffer, and need none to have come before. Copies are the same buffer.
 class Buffer {
  public:
+  /// No buffer: of size 0, to be assigned to, or handed to Commands that have failed.
+  Buffer() = default;
+
   /// A buffer of size_bytes, 0 included, with undefined content. Fails (kMemory) if no kernel can see a buffer of this
   /// size on the device in this way, or if its memory is used up; (kDevice) if the driver fails.
   static Expected<Buffer> create(const Device& device, std::uint64_t size_bytes, BufferUse use = BufferUse::kWhole);
@@ -35,10 +38,6 @@ class Buffer {
   static Expected<Buffer> of(const Device& device, const Range& values, BufferUse use = BufferUse::kWhole) {
     return of_bytes(device, std::as_bytes(std::span(values)), use);
   }
-
-  Buffer(Buffer&& other) noexcept;
-  Buffer& operator=(Buffer&& other) noexcept;
-  ~Buffer();
 
   /// Size in bytes, as asked for.
   [[nodiscard]] std::uint64_t size() const;
@@ -64,12 +63,12 @@ class Buffer {
   [[nodiscard]] const State& state() const { return *state_; }
 
  private:
-  explicit Buffer(std::unique_ptr<State> state);
+  explicit Buffer(std::shared_ptr<State> state) : state_(std::move(state)) {}
   static Expected<Buffer> of_bytes(const Device& device, std::span<const std::byte> bytes, BufferUse use);
   Expected<void> upload_bytes(std::span<const std::byte> bytes, std::uint64_t offset);
   Expected<void> download_bytes(std::span<std::byte> bytes, std::uint64_t offset) const;
 
-  std::unique_ptr<State> state_;
+  std::shared_ptr<State> state_;
 };
 
 /// A buffer or a part of it, as a kernel sees it. Does not own the buffer.

@@ -15,21 +15,26 @@
 namespace quorum {
 
 struct Commands::State {
+  Device opened;
   std::shared_ptr<Device::State> device;
   CommandsOptions options;
   Recorder recorder;
   Descriptors descriptors;
-  std::vector<vk::raii::BufferView> texel_views;  ///< of what is recorded
   Timestamps timestamps;
   std::vector<RegionTiming> timings;
   double last_submission_seconds = 0.0;
   std::string region = "other";            ///< of what is recorded next
   std::optional<std::string> open_region;  ///< of what was recorded last
   bool recording = false;
-  std::optional<Error> failed;  ///< while recording
+  std::optional<Error> failed;  ///< the first failure since the last submission
 
-  explicit State(std::shared_ptr<Device::State> from)
-      : device(std::move(from)), recorder(device->make_recorder()), descriptors(*device), timestamps(*device) {}
+  State(const Device& on, const CommandsOptions& with)
+      : opened(on),
+        device(on.state()),
+        options(with),
+        recorder(device->make_recorder()),
+        descriptors(*device),
+        timestamps(*device) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() { device->settle(); }
@@ -38,6 +43,8 @@ struct Commands::State {
   void end();
   void clear();
   void record(const std::function<void(const vk::raii::CommandBuffer&)>& function);
+  template <typename Function>
+  auto keep(const Function& function) -> std::invoke_result_t<Function>::value_type;
 };
 
 // Before a command: starts recording and the region, as far as they are not.
@@ -46,7 +53,6 @@ void Commands::State::start() {
     device->settle();
     recorder.pool.reset();
     descriptors.reset();
-    texel_views.clear();
     recorder.commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     recording = true;
     timestamps.begin(recorder.commands);
@@ -72,73 +78,28 @@ void Commands::State::clear() {
   failed.reset();
 }
 
+// What an Expected of function holds; its failure is kept, and after that it is not called.
+template <typename Function>
+auto Commands::State::keep(const Function& function) -> std::invoke_result_t<Function>::value_type {
+  using Value = std::invoke_result_t<Function>::value_type;
+  if (failed) return Value();
+  auto result = function();
+  if (result) return *std::move(result);
+  failed = std::move(result).error();
+  return Value();
+}
+
 void Commands::State::record(const std::function<void(const vk::raii::CommandBuffer&)>& function) {
-  if (failed) return;
-  const auto recorded = guarded("recording " + region, [&] {
-    start();
-    function(recorder.commands);
-    publish_writes(recorder.commands);
+  keep([&] {
+    return guarded("recording " + region, [&] {
+      start();
+      function(recorder.commands);
+      publish_writes(recorder.commands);
+    });
   });
-  if (!recorded) failed = recorded.error();
 }
 
 namespace {
-
-struct BoundRange {
-  std::uint64_t offset = 0;
-  std::uint64_t size = 0;
-};
-
-// The range of a view in whole words, since kernels read words; at least one.
-BoundRange range_of(const BufferView& view) {
-  const std::uint64_t capacity = view.buffer->state().capacity;
-  QUORUM_CHECK_LE(view.offset, view.buffer->size());
-  QUORUM_CHECK_LE(view.size, view.buffer->size() - view.offset);
-  const BoundRange range{view.offset, (std::max<std::uint64_t>(view.size, 1) + 3) / 4 * 4};
-  QUORUM_CHECK_LE(range.offset + range.size, capacity);
-  return range;
-}
-
-vk::DescriptorBufferInfo storage_of(const BufferView& view, const vk::PhysicalDeviceLimits& limits) {
-  QUORUM_CHECK_EQ(view.offset % limits.minStorageBufferOffsetAlignment, 0U);
-  const auto [offset, size] = range_of(view);
-  QUORUM_CHECK_LE(size, limits.maxStorageBufferRange);
-  return {.buffer = *view.buffer->state().allocation.buffer, .offset = offset, .range = size};
-}
-
-vk::raii::BufferView texels_of(const BufferView& view, const Device::State& device) {
-  constexpr std::uint64_t kTexelBytes = 16;
-  QUORUM_CHECK_EQ(view.offset % device.limits.minTexelBufferOffsetAlignment, 0U);
-  QUORUM_CHECK_EQ(view.size % kTexelBytes, 0U);
-  QUORUM_CHECK_LE(view.size / kTexelBytes, device.limits.maxTexelBufferElements);
-  return {device.device, vk::BufferViewCreateInfo{.buffer = *view.buffer->state().allocation.buffer,
-                                                  .format = vk::Format::eR32G32B32A32Uint,
-                                                  .offset = view.offset,
-                                                  .range = view.size}};
-}
-
-// texel_views: keeps what the set refers to.
-vk::DescriptorSet bind_buffers(Descriptors& descriptors, std::vector<vk::raii::BufferView>& texel_views,
-                               const Kernel::State& kernel, std::span<const BufferView> buffers) {
-  const vk::DescriptorSet set = descriptors.make_set(kernel);
-  for (std::uint32_t i = 0; i < buffers.size(); ++i) {
-    const BufferView& view = buffers[i];
-    QUORUM_CHECK_EQ(view.buffer->state().device == kernel.device, true);
-    const BufferKind kind = kernel.layout.buffers[i];
-    vk::WriteDescriptorSet write{
-        .dstSet = set, .dstBinding = i, .descriptorCount = 1, .descriptorType = descriptor_type(kind)};
-    vk::DescriptorBufferInfo storage;
-    if (kind == BufferKind::kTexels) {
-      texel_views.push_back(texels_of(view, *kernel.device));
-      write.pTexelBufferView = &*texel_views.back();
-    } else {
-      storage = storage_of(view, kernel.device->limits);
-      write.pBufferInfo = &storage;
-    }
-    kernel.device->device.updateDescriptorSets(write, {});
-  }
-  return set;
-}
 
 // Work groups along each axis that cover the threads; fails (kDevice) if the device does not allow as many.
 Expected<std::array<std::uint32_t, 3>> count_groups(const Kernel::State& kernel, const Threads& threads) {
@@ -167,17 +128,44 @@ Commands& Commands::operator=(Commands&& other) noexcept = default;
 Commands::~Commands() = default;
 
 Expected<Commands> Commands::create(const Device& device, const CommandsOptions& options) {
-  return guarded("making a command buffer on " + device.info().name, [&] {
-    auto state = std::make_unique<State>(device.state());
-    state->options = options;
-    return Commands(std::move(state));
-  });
+  return guarded("making a command buffer on " + device.info().name,
+                 [&] { return Commands(std::make_unique<State>(device, options)); });
+}
+
+const Device& Commands::device() const { return state_->opened; }
+
+Kernel Commands::kernel(std::string_view name, const std::vector<SpecConstant>& constants) {
+  return state_->keep([&] { return Kernel::create(device(), find_kernel(name), constants); });
+}
+
+Buffer Commands::allocate(std::uint64_t size_bytes, BufferUse use) {
+  return state_->keep([&] { return Buffer::create(device(), size_bytes, use); });
+}
+
+Buffer Commands::allocate_zeros(std::uint64_t size_bytes, BufferUse use) {
+  Buffer zeros = allocate(size_bytes, use);
+  state_->keep([&] { return zeros.fill_zero(); });
+  return zeros;
+}
+
+Buffer Commands::upload_bytes(std::span<const std::byte> bytes, BufferUse use) {
+  return state_->keep([&] { return Buffer::of(device(), bytes, use); });
+}
+
+void Commands::upload_bytes(std::span<const std::byte> bytes, Buffer& to, std::uint64_t offset_bytes) {
+  state_->keep([&] { return to.upload(bytes, offset_bytes); });
+}
+
+Expected<void> Commands::download_bytes(const Buffer& from, std::span<std::byte> bytes) {
+  QUORUM_TRY(submit());
+  return from.download(bytes);
 }
 
 void Commands::region(std::string_view name) { state_->region = name; }
 
 void Commands::record(const Kernel& kernel, const Threads& threads, std::span<const std::byte> params,
                       std::span<const BufferView> buffers) {
+  if (state_->failed) return;
   const Kernel::State& built = kernel.state();
   QUORUM_CHECK_EQ(built.device == state_->device, true);
   QUORUM_CHECK_EQ(params.size(), built.layout.push_constant_size);
@@ -185,26 +173,22 @@ void Commands::record(const Kernel& kernel, const Threads& threads, std::span<co
   QUORUM_CHECK_GE(threads.x, 0);
   QUORUM_CHECK_GE(threads.y, 0);
   QUORUM_CHECK_GE(threads.z, 0);
-  if (threads.x == 0 || threads.y == 0 || threads.z == 0 || state_->failed) return;
-  const auto groups = count_groups(built, threads);
-  if (!groups) {
-    state_->failed = groups.error();
-    return;
-  }
+  if (threads.x == 0 || threads.y == 0 || threads.z == 0) return;
+  const auto [x, y, z] = state_->keep([&] { return count_groups(built, threads); });
   state_->record([&](const vk::raii::CommandBuffer& commands) {
-    const vk::DescriptorSet set = bind_buffers(state_->descriptors, state_->texel_views, built, buffers);
+    const vk::DescriptorSet set = state_->descriptors.bind(built, buffers);
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *built.pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *built.pipeline_layout, 0, set, {});
     if (!params.empty()) {
       commands.pushConstants<std::byte>(*built.pipeline_layout, vk::ShaderStageFlagBits::eCompute, 0,
                                         {static_cast<std::uint32_t>(params.size()), params.data()});
     }
-    const auto [x, y, z] = *groups;
     commands.dispatch(x, y, z);
   });
 }
 
 void Commands::fill_zero(const BufferView& view) {
+  if (state_->failed) return;
   QUORUM_CHECK_EQ(view.buffer->state().device == state_->device, true);
   QUORUM_CHECK_EQ(view.offset % 4, 0U);
   QUORUM_CHECK_EQ(view.size % 4 == 0 || view.offset + view.size == view.buffer->size(), true);
@@ -216,6 +200,7 @@ void Commands::fill_zero(const BufferView& view) {
 }
 
 void Commands::copy(const Buffer& from, const Buffer& to) {
+  if (state_->failed) return;
   QUORUM_CHECK_EQ(from.state().device == state_->device, true);
   QUORUM_CHECK_EQ(to.state().device == state_->device, true);
   QUORUM_CHECK_EQ(from.size(), to.size());
@@ -229,12 +214,12 @@ void Commands::copy(const Buffer& from, const Buffer& to) {
 Expected<void> Commands::submit() {
   State& state = *state_;
   state.last_submission_seconds = 0.0;
-  if (!state.recording && !state.failed) return {};
   if (state.failed) {
-    const Error error = *state.failed;
+    Error error = *std::move(state.failed);
     state.clear();
-    return std::unexpected(error);
+    return std::unexpected(std::move(error));
   }
+  if (!state.recording) return {};
   const std::string doing = "running " + *state.open_region;
   if (auto ended = guarded(doing, [&] { state.end(); }); !ended) {
     state.clear();
@@ -242,7 +227,7 @@ Expected<void> Commands::submit() {
   }
   state.clear();
   const auto began = std::chrono::steady_clock::now();
-  if (auto done = state.device->submit(state.recorder, state.options.timeout, doing); !done) return done;
+  QUORUM_TRY(state.device->submit(state.recorder, state.options.timeout, doing));
   const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - began;
   return guarded(doing, [&] {
     const double measured = state.timestamps.collect(state.timings);

@@ -1,8 +1,10 @@
-// Work for a device: dispatches in named regions, recorded, submitted, waited for and timed.
+// Work for a device: transfers, and dispatches in named regions, recorded, submitted, waited for and timed.
 //
+//   const Buffer reference = commands.upload(image.pixels);
+//   const Buffer depths = commands.allocate(depth.size() * sizeof(float));
 //   commands.region("sweep_depth");
-//   commands.dispatch(kernels.sweep_depth, {width, height}, params, {reference, neighbors, depths});
-//   if (auto done = commands.submit(); !done) return std::unexpected(done.error());
+//   commands.dispatch(sweep_depth, {width, height}, params, {reference, depths});
+//   QUORUM_TRY(commands.download(depths, depth));
 #pragma once
 
 #include <chrono>
@@ -41,8 +43,9 @@ struct CommandsOptions {
   std::chrono::nanoseconds timeout = std::chrono::seconds(120);  ///< a submission that takes longer has failed
 };
 
-/// Records commands that run one after the other; each sees what those before it wrote. Move-only; a moved-from object
-/// may only be assigned to or destroyed.
+/// Records commands that run one after the other; each sees what those before it wrote. The first failure of any call
+/// is kept until submit or download tells it: until then nothing is done, and buffers and kernels that are made are
+/// none. Move-only; a moved-from object may only be assigned to or destroyed.
 class Commands {
  public:
   /// Fails (kDevice, kMemory) if the driver does.
@@ -51,6 +54,27 @@ class Commands {
   Commands(Commands&& other) noexcept;
   Commands& operator=(Commands&& other) noexcept;
   ~Commands();
+
+  [[nodiscard]] const Device& device() const;
+
+  /// A kernel of shaders/, by name. Fails as Kernel::create does.
+  Kernel kernel(std::string_view name, const std::vector<SpecConstant>& constants = {});
+
+  // Buffers, made and filled at once, before what is recorded runs. Fail as Buffer::create and Buffer::upload do.
+
+  /// A buffer with undefined content.
+  Buffer allocate(std::uint64_t size_bytes, BufferUse use = BufferUse::kWhole);
+  Buffer allocate_zeros(std::uint64_t size_bytes, BufferUse use = BufferUse::kWhole);
+  /// A buffer that holds values.
+  template <PlainValues Range>
+  Buffer upload(const Range& values, BufferUse use = BufferUse::kWhole) {
+    return upload_bytes(std::as_bytes(std::span(values)), use);
+  }
+  /// Copies values into a buffer from offset_bytes on.
+  template <PlainValues Range>
+  void upload(const Range& values, Buffer& to, std::uint64_t offset_bytes) {
+    upload_bytes(std::as_bytes(std::span(values)), to, offset_bytes);
+  }
 
   /// Names what is recorded from now on, over submissions too: for the timings, for messages and for debuggers. "other"
   /// until the first call.
@@ -77,9 +101,16 @@ class Commands {
   /// Copies a whole buffer into another one of the same size.
   void copy(const Buffer& from, const Buffer& to);
 
-  /// Runs what was recorded and waits for it; then the object is ready to record anew. Fails with the first failure of
-  /// recording; (kDevice) if the device is lost, fails, or takes longer than the timeout; (kMemory) if memory runs out.
+  /// Runs what was recorded and waits for it; then the object is ready to record anew. Fails with the first failure
+  /// since the last submission; (kDevice) if the device is lost, fails, or takes longer than the timeout; (kMemory) if
+  /// memory runs out.
   Expected<void> submit();
+
+  /// Submits, and fills values from the start of a buffer. Fails as submit and Buffer::download do.
+  template <PlainValues Range>
+  Expected<void> download(const Buffer& from, Range&& values) {
+    return download_bytes(from, std::as_writable_bytes(std::span(values)));
+  }
 
   /// Seconds per region name over all submissions, in order of first use. Empty on a queue without timestamps.
   [[nodiscard]] const std::vector<RegionTiming>& timings() const;
@@ -92,6 +123,9 @@ class Commands {
   explicit Commands(std::unique_ptr<State> state);
   void record(const Kernel& kernel, const Threads& threads, std::span<const std::byte> params,
               std::span<const BufferView> buffers);
+  Buffer upload_bytes(std::span<const std::byte> bytes, BufferUse use);
+  void upload_bytes(std::span<const std::byte> bytes, Buffer& to, std::uint64_t offset_bytes);
+  Expected<void> download_bytes(const Buffer& from, std::span<std::byte> bytes);
 
   std::unique_ptr<State> state_;
 };

@@ -9,17 +9,14 @@ namespace quorum {
 
 class ConfirmStage {
  public:
-  /// Fails (kDevice, kMemory) if the device does.
-  static Expected<ConfirmStage> create(const Device& device, Commands& commands);
+  /// The commands keep a failure to make kernels.
+  explicit ConfirmStage(Commands& commands)
+      : commands_(&commands), confirm_depths_(commands.kernel("confirm_depths")) {}
 
   /// The certainty of a view's depths. Fails (kDevice, kMemory) if the device does.
   Expected<Grid<float>> run(const ConfirmTask& task);
 
  private:
-  ConfirmStage(const Device& device, Commands& commands, Kernel confirm_depths)
-      : device_(&device), commands_(&commands), confirm_depths_(std::move(confirm_depths)) {}
-
-  const Device* device_;
   Commands* commands_;
   Kernel confirm_depths_;
 };

@@ -7,7 +7,6 @@
 #include "engine/depth/refine_depth.h"
 #include "engine/depth/refine_planes.h"
 #include "engine/depth/vote_depth.h"
-#include "host/kernel_table.h"
 #include "host/sweep_texels.h"
 
 namespace quorum {
@@ -21,6 +20,10 @@ constexpr std::int64_t kLanesGroupSize = 16;     // invocations, each with an it
 constexpr std::int64_t kMaxPlanes = 1024;
 constexpr std::int64_t kLeastWindows = 1LL << 14;
 constexpr std::int64_t kStartWindows = 1LL << 18;
+
+SweepForm form_for(const DeviceInfo& device) {
+  return device.kind == DeviceKind::kSoftware && device.has_float64 ? SweepForm::kLanes : SweepForm::kGroups;
+}
 
 // Shared memory that sweep_depth takes: six words per sample, five per window of a row of samples.
 constexpr std::uint32_t shared_bytes(BlockSize block, int window) {
@@ -93,35 +96,23 @@ VoteParams make_vote_params(const SweepTask& task, BlockSize block, const SweepB
 
 }  // namespace
 
-Expected<DepthStage> DepthStage::create(const Device& device, Commands& commands, std::optional<SweepForm> form) {
-  const bool software = device.info().kind == DeviceKind::kSoftware && device.info().has_float64;
-  const SweepForm chosen = form.value_or(software ? SweepForm::kLanes : SweepForm::kGroups);
-  auto vote_depth =
-      Kernel::create(device, find_kernel(chosen == SweepForm::kLanes ? "vote_depth_lanes" : "vote_depth"));
-  if (!vote_depth) return std::unexpected(vote_depth.error());
-  auto planes = PlaneStage::create(device, commands);
-  if (!planes) return std::unexpected(planes.error());
-  return DepthStage(device, commands, chosen, std::move(*vote_depth), std::move(*planes));
-}
-
-DepthStage::DepthStage(const Device& device, Commands& commands, SweepForm form, Kernel vote_depth, PlaneStage planes)
-    : device_(&device),
-      commands_(&commands),
-      form_(form),
-      vote_depth_(std::move(vote_depth)),
-      planes_(std::move(planes)),
-      planes_in_lanes_(device, commands),
-      batch_size_(kStartWindows, kLeastWindows, ncc_values(device.info())) {}
+DepthStage::DepthStage(Commands& commands, std::optional<SweepForm> form)
+    : commands_(&commands),
+      info_(&commands.device().info()),
+      form_(form.value_or(form_for(*info_))),
+      vote_depth_(commands.kernel(form_ == SweepForm::kLanes ? "vote_depth_lanes" : "vote_depth")),
+      planes_(commands),
+      planes_in_lanes_(commands),
+      batch_size_(kStartWindows, kLeastWindows, ncc_values(*info_)) {}
 
 SweepForm DepthStage::form_of(const SweepTask& task) const {
   if (task.options.window_model == WindowModel::kAxis) return SweepForm::kGroups;
-  const DeviceInfo& info = device_->info();
-  const std::uint64_t most = std::min(info.max_texel_buffer_elements * sizeof(Texel), info.max_allocation);
+  const std::uint64_t most = std::min(info_->max_texel_buffer_elements * sizeof(Texel), info_->max_allocation);
   const auto fits = [&](const auto& image) { return quads_size(*image) <= most; };
   return fits(task.reference) && std::ranges::all_of(task.neighbors, fits) ? form_ : SweepForm::kGroups;
 }
 
-Expected<DepthStage::Pass> DepthStage::make_pass(SweepForm form, const SweepOptions& options, BlockSize block) const {
+DepthStage::Pass DepthStage::make_pass(SweepForm form, const SweepOptions& options, BlockSize block) const {
   std::vector<SpecConstant> constants = {
       {"kWindow", static_cast<std::uint32_t>(options.window)},
       {"kShift", static_cast<std::uint32_t>(kSampleShift + extra_sample_shift(options.window))},
@@ -133,75 +124,55 @@ Expected<DepthStage::Pass> DepthStage::make_pass(SweepForm form, const SweepOpti
     constants.push_back({"kGroupSize", static_cast<std::uint32_t>(block.pixels())});
     constants.push_back({"kAxisModel", options.window_model == WindowModel::kAxis ? 1U : 0U});
   }
-  const KernelCode& code = find_kernel(form == SweepForm::kLanes ? "sweep_depth_lanes" : "sweep_depth");
-  auto kernel = Kernel::create(*device_, code, constants);
-  if (!kernel) return std::unexpected(kernel.error());
-  return Pass{block, std::move(*kernel)};
+  return {block, commands_->kernel(form == SweepForm::kLanes ? "sweep_depth_lanes" : "sweep_depth", constants)};
 }
 
-Expected<void> DepthStage::prepare_kernels(const SweepTask& task) {
+void DepthStage::prepare_kernels(const SweepTask& task) {
   const SweepOptions& options = task.options;
   const SweepForm form = form_of(task);
-  for (const Sweep& sweep : sweeps_) {
-    if (sweep.form != form || sweep.window != options.window || sweep.model != options.window_model) continue;
-    sweep_ = &sweep;
-    return {};
-  }
-  auto first = make_pass(form, options, first_block(form, options.window, device_->info()));
-  if (!first) return std::unexpected(first.error());
-  auto second = make_pass(form, options, second_block(form));
-  if (!second) return std::unexpected(second.error());
-  sweep_ = &sweeps_.emplace_back(form, options.window, options.window_model, std::move(*first), std::move(*second));
-  return {};
+  Sweep& sweep = sweeps_[{form, options.window, options.window_model}];
+  sweep_ = &sweep;
+  if (!sweep.second.kernel.empty()) return;  // the last that is made
+  sweep = {.form = form,
+           .first = make_pass(form, options, first_block(form, options.window, *info_)),
+           .second = make_pass(form, options, second_block(form))};
 }
 
-Expected<DepthStage::Inputs> DepthStage::upload(const SweepTask& task) const {
+DepthStage::Inputs DepthStage::upload(const SweepTask& task) const {
   const bool lanes = sweep_->form == SweepForm::kLanes;
   const int window = task.options.window;
   const BufferUse use = lanes ? BufferUse::kInParts : BufferUse::kWhole;  // as texels, or as words
-  auto reference = lanes ? Buffer::of(*device_, make_reference_texels(*task.reference, window), use)
-                         : Buffer::of(*device_, task.reference->pixels, use);
-  if (!reference) return std::unexpected(reference.error());
-  auto windows = Buffer::of(*device_, in_whole_blocks(make_reference_windows(*task.reference, window)).values, use);
-  if (!windows) return std::unexpected(windows.error());
   std::vector<Buffer> neighbors;
-  for (const auto& image : task.neighbors) {
-    auto neighbor = lanes ? Buffer::of(*device_, make_quads(*image), use) : Buffer::of(*device_, image->pixels, use);
-    if (!neighbor) return std::unexpected(neighbor.error());
-    neighbors.push_back(std::move(*neighbor));
-  }
-  auto ncc = Buffer::create(*device_, static_cast<std::uint64_t>(ncc_values(device_->info())) * sizeof(float));
-  if (!ncc) return std::unexpected(ncc.error());
-  return Inputs{std::move(*reference), std::move(*windows), std::move(neighbors), std::move(*ncc)};
+  for (const auto& image : task.neighbors)
+    neighbors.push_back(lanes ? commands_->upload(make_quads(*image), use) : commands_->upload(image->pixels, use));
+  return {.reference = lanes ? commands_->upload(make_reference_texels(*task.reference, window), use)
+                             : commands_->upload(task.reference->pixels, use),
+          .windows = commands_->upload(in_whole_blocks(make_reference_windows(*task.reference, window)).values, use),
+          .neighbors = std::move(neighbors),
+          .ncc = commands_->allocate(static_cast<std::uint64_t>(ncc_values(*info_)) * sizeof(float))};
 }
 
 Expected<void> DepthStage::run_batch(const SweepTask& task, const Inputs& inputs, const Pass& pass,
                                      const SweepBatch& batch, const Band& band) {
   const std::int64_t windows_of_item = pass.block.pixels();
   const auto item_count = static_cast<std::int64_t>(batch.items.size());
-  auto blocks = Buffer::of(*device_, batch.blocks);
-  if (!blocks) return std::unexpected(blocks.error());
-  auto items = Buffer::of(*device_, batch.items);
-  if (!items) return std::unexpected(items.error());
+  const Buffer blocks = commands_->upload(batch.blocks);
+  const Buffer items = commands_->upload(batch.items);
   commands_->region("sweep_depth");
   for (std::size_t neighbor = 0; neighbor < inputs.neighbors.size(); ++neighbor)
     commands_->dispatch(pass.kernel, {sweep_->form == SweepForm::kLanes ? item_count : item_count * windows_of_item},
                         make_sweep_params(task, pass.block, neighbor, static_cast<int>(item_count)),
-                        {*items, inputs.reference, inputs.windows, inputs.neighbors[neighbor], inputs.ncc});
+                        {items, inputs.reference, inputs.windows, inputs.neighbors[neighbor], inputs.ncc});
   commands_->region("vote_depth");
   commands_->dispatch(vote_depth_, {static_cast<std::int64_t>(batch.blocks.size()) * windows_of_item / 4},
                       make_vote_params(task, pass.block, batch, band.height),
-                      {*blocks, *items, band.ranges, inputs.ncc, band.votes});
+                      {blocks, items, band.ranges, inputs.ncc, band.votes});
   return commands_->submit();
 }
 
 Expected<void> DepthStage::run_band(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges,
                                     const Pass& pass, int stride, int row_begin, std::span<PixelVote> votes) {
-  auto range_buffer = Buffer::of(*device_, ranges.values);
-  if (!range_buffer) return std::unexpected(range_buffer.error());
-  auto vote_buffer = Buffer::of(*device_, votes);
-  if (!vote_buffer) return std::unexpected(vote_buffer.error());
-  const Band band{ranges.height, std::move(*range_buffer), std::move(*vote_buffer)};
+  const Band band{ranges.height, commands_->upload(ranges.values), commands_->upload(votes)};
   const std::int64_t item_windows = std::int64_t{pass.block.pixels()} * task.neighbor_count();
   const std::int64_t max_items = kMaxGroups * (sweep_->form == SweepForm::kLanes ? kLanesGroupSize : 1);
   SweepBatches batches(ranges, task.planes.inverse_depth, pass.block, stride);
@@ -210,45 +181,41 @@ Expected<void> DepthStage::run_band(const SweepTask& task, const Inputs& inputs,
     SweepBatch batch = batches.next(most, kMaxPlanes);
     if (batch.items.empty()) break;
     for (SweepItem& item : batch.items) item.y += row_begin;  // items lie in the view, blocks in the band
-    if (auto done = run_batch(task, inputs, pass, batch, band); !done) return done;
+    QUORUM_TRY(run_batch(task, inputs, pass, batch, band));
     batch_size_.measured(static_cast<std::int64_t>(batch.items.size()) * item_windows,
                          commands_->last_submission_seconds());
   }
-  return band.votes.download(votes);
+  return commands_->download(band.votes, votes);
 }
 
 Expected<Grid<PixelVote>> DepthStage::run_pass(const SweepTask& task, const Inputs& inputs,
                                                const Grid<PlaneRange>& ranges, const Pass& pass, int stride) {
   Grid<PixelVote> votes(ranges.width, ranges.height, kNoVote);
-  const int rows = rows_of_band(ranges.width, device_->info());
+  const int rows = rows_of_band(ranges.width, *info_);
   for (int begin = 0; begin < ranges.height; begin += rows) {
     const Grid<PlaneRange> band = rows_of(ranges, begin, std::min(begin + rows, ranges.height));
     const std::span<PixelVote> band_votes(votes.row(begin), band.values.size());
-    if (auto done = run_band(task, inputs, band, pass, stride, begin, band_votes); !done)
-      return std::unexpected(done.error());
+    QUORUM_TRY(run_band(task, inputs, band, pass, stride, begin, band_votes));
   }
   return votes;
 }
 
 Expected<Grid<PixelVote>> DepthStage::sweep(const SweepTask& task) {
-  if (auto ready = prepare_kernels(task); !ready) return std::unexpected(ready.error());
-  auto inputs = upload(task);
-  if (!inputs) return std::unexpected(inputs.error());
-  auto votes = run_pass(task, *inputs, task.ranges, sweep_->first, task.planes.refinement);
+  prepare_kernels(task);
+  const Inputs inputs = upload(task);
+  auto votes = run_pass(task, inputs, task.ranges, sweep_->first, task.planes.refinement);
   const bool slanted = task.options.window_model == WindowModel::kSlanted;
   if (votes && task.planes.refinement > 1 && !slanted)
-    votes = run_pass(task, *inputs, refine_ranges(*votes, task.planes), sweep_->second, 1);
+    votes = run_pass(task, inputs, refine_ranges(*votes, task.planes), sweep_->second, 1);
   return votes;
 }
 
 Expected<DepthMap> DepthStage::run(const SweepTask& task) {
-  const auto votes = sweep(task);
-  if (!votes) return std::unexpected(votes.error());
-  if (task.options.window_model != WindowModel::kSlanted) return depth_map_from_votes(*votes, task.planes);
+  QUORUM_ASSIGN(const auto votes, sweep(task));
+  if (task.options.window_model != WindowModel::kSlanted) return depth_map_from_votes(votes, task.planes);
   const bool lanes = form_ == SweepForm::kLanes && planes_in_lanes_.fits(task);
-  const auto planes = lanes ? planes_in_lanes_.run(task, *votes) : planes_.run(task, *votes);
-  if (!planes) return std::unexpected(planes.error());
-  return depth_map_from_planes(*planes, task.intrinsics);
+  QUORUM_ASSIGN(const auto planes, lanes ? planes_in_lanes_.run(task, votes) : planes_.run(task, votes));
+  return depth_map_from_planes(planes, task);
 }
 
 }  // namespace quorum

@@ -2,9 +2,10 @@
 // pixel's best one (between the two passes only the planes differ), or tilted planes instead (host/plane_stage.h).
 #pragma once
 
-#include <list>
+#include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 
 #include "engine/depth/depth_map.h"
 #include "engine/depth/sweep_task.h"
@@ -26,8 +27,8 @@ enum class SweepForm {
 
 class DepthStage {
  public:
-  /// form: empty = the one for this kind of device. Fails (kDevice, kMemory) if the device does.
-  static Expected<DepthStage> create(const Device& device, Commands& commands, std::optional<SweepForm> form = {});
+  /// form: empty = the one for this kind of device. The commands keep a failure to make kernels.
+  explicit DepthStage(Commands& commands, std::optional<SweepForm> form = {});
 
   /// The depth map of one view. Fails (kDevice, kMemory) if the device does.
   Expected<DepthMap> run(const SweepTask& task);
@@ -38,11 +39,9 @@ class DepthStage {
     BlockSize block;
     Kernel kernel;
   };
-  /// The kernels for one window size and model.
+  /// The kernels for one form, window size and model.
   struct Sweep {
     SweepForm form;
-    int window;
-    WindowModel model;
     Pass first;
     Pass second;
   };
@@ -61,11 +60,10 @@ class DepthStage {
     Buffer votes;
   };
 
-  DepthStage(const Device& device, Commands& commands, SweepForm form, Kernel vote_depth, PlaneStage planes);
   [[nodiscard]] SweepForm form_of(const SweepTask& task) const;
-  Expected<void> prepare_kernels(const SweepTask& task);
-  [[nodiscard]] Expected<Pass> make_pass(SweepForm form, const SweepOptions& options, BlockSize block) const;
-  Expected<Inputs> upload(const SweepTask& task) const;
+  void prepare_kernels(const SweepTask& task);
+  [[nodiscard]] Pass make_pass(SweepForm form, const SweepOptions& options, BlockSize block) const;
+  [[nodiscard]] Inputs upload(const SweepTask& task) const;
   Expected<Grid<PixelVote>> sweep(const SweepTask& task);
   Expected<Grid<PixelVote>> run_pass(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges,
                                      const Pass& pass, int stride);
@@ -75,15 +73,15 @@ class DepthStage {
   Expected<void> run_batch(const SweepTask& task, const Inputs& inputs, const Pass& pass, const SweepBatch& batch,
                            const Band& band);
 
-  const Device* device_;
   Commands* commands_;
+  const DeviceInfo* info_;
   SweepForm form_;
   Kernel vote_depth_;
   PlaneStage planes_;
   PlaneLanesStage planes_in_lanes_;
-  std::list<Sweep> sweeps_;       // that were made so far
-  const Sweep* sweep_ = nullptr;  // of the task
-  BatchSize batch_size_;          // windows per submission
+  std::map<std::tuple<SweepForm, int, WindowModel>, Sweep> sweeps_;  // that were made so far
+  const Sweep* sweep_ = nullptr;                                     // of the task
+  BatchSize batch_size_;                                             // windows per submission
 };
 
 }  // namespace quorum

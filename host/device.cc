@@ -62,11 +62,10 @@ Expected<Device> Device::open(const DeviceInfo& info, const DeviceOptions& optio
   if (!info.usable()) {
     return failure(ErrorKind::kNoDevice, fmt::format("device {} can't be used: {}", info.name, info.defect));
   }
-  auto instance = make_instance(options.validation);
-  if (!instance) return std::unexpected(instance.error());
+  QUORUM_ASSIGN(auto instance, make_instance(options.validation));
   const std::string doing = fmt::format("opening device {}", info.name);
   auto state = guarded(doing, [&] {
-    auto opened = std::make_shared<State>(std::move(*instance));
+    auto opened = std::make_shared<State>(std::move(instance));
     opened->options = options;
     const auto devices = opened->instance.handle.enumeratePhysicalDevices();
     if (std::cmp_greater_equal(info.index, devices.size())) return std::shared_ptr<State>();

@@ -29,8 +29,8 @@ std::string list_text(std::span<const DeviceInfo> devices) {
   return text + "and cpu";
 }
 
-Error no_device(std::string_view request, std::string_view what, std::span<const DeviceInfo> devices) {
-  return {ErrorKind::kNoDevice, fmt::format("--device {}: {}; {}", request, what, list_text(devices))};
+std::unexpected<Error> no_device(std::string_view request, std::string_view what, std::span<const DeviceInfo> devices) {
+  return failure(ErrorKind::kNoDevice, fmt::format("--device {}: {}; {}", request, what, list_text(devices)));
 }
 
 DeviceChoice choose_automatically(std::span<const DeviceInfo> devices) {
@@ -85,19 +85,15 @@ Expected<DeviceChoice> choose_device(std::string_view request, std::span<const D
   // A number that is no index may still be part of a name: "4090".
   Candidates found = with_index(request, devices);
   if (found.empty()) found = with_name(request, devices);
-  if (found.empty()) return std::unexpected(no_device(request, "no device has this index or name", devices));
+  if (found.empty()) return no_device(request, "no device has this index or name", devices);
 
   const DeviceInfo* first = found.front();
   std::erase_if(found, [](const DeviceInfo* device) { return !device->usable(); });
-  if (found.empty()) {
-    return std::unexpected(
-        no_device(request, fmt::format("{} can't be used: {}", first->name, first->defect), devices));
-  }
+  if (found.empty())
+    return no_device(request, fmt::format("{} can't be used: {}", first->name, first->defect), devices);
   first = found.front();
-  if (std::ranges::any_of(found, [&](const DeviceInfo* device) { return device->name != first->name; })) {
-    return std::unexpected(
-        no_device(request, "this fits devices with different names, say more or give an index", devices));
-  }
+  if (std::ranges::any_of(found, [&](const DeviceInfo* device) { return device->name != first->name; }))
+    return no_device(request, "this fits devices with different names, say more or give an index", devices);
   if (found.size() == 1) return DeviceChoice{*first, "chosen by the user"};
   return DeviceChoice{*first, fmt::format("chosen by the user, the first of {} with this name", found.size())};
 }

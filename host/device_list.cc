@@ -22,12 +22,11 @@ std::string_view to_string(DeviceKind kind) {
 }
 
 Expected<std::vector<DeviceInfo>> list_devices() {
-  const auto instance = make_instance(false);
-  if (!instance) return std::unexpected(instance.error());
+  QUORUM_ASSIGN(const auto instance, make_instance(false));
   return guarded("listing devices", [&] {
     std::vector<DeviceInfo> devices;
     try {
-      for (const auto& physical : instance->handle.enumeratePhysicalDevices()) {
+      for (const auto& physical : instance.handle.enumeratePhysicalDevices()) {
         devices.push_back(describe_device(physical, static_cast<int>(devices.size())));
       }
     } catch (const vk::InitializationFailedError&) {

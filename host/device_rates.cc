@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "host/commands.h"
-#include "host/kernel_table.h"
 
 namespace quorum {
 namespace {
@@ -21,50 +20,40 @@ Expected<double> best_seconds(Commands& commands, const Record& record) {
   double best = std::numeric_limits<double>::infinity();
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
     record();
-    if (auto done = commands.submit(); !done) return std::unexpected(done.error());
+    QUORUM_TRY(commands.submit());
     best = std::min(best, commands.last_submission_seconds());
   }
   return best;
 }
 
 /// Takes more and more invocations until they fill the device for long enough.
-Expected<double> operations_per_second(const Device& device, Commands& commands) {
+Expected<double> operations_per_second(Commands& commands) {
   constexpr std::int64_t kMaxInvocations = 1 << 22;
-  auto kernel = Kernel::create(device, find_kernel("measure_operations"));
-  if (!kernel) return std::unexpected(kernel.error());
-  auto values = Buffer::create(device, kMaxInvocations * sizeof(std::uint32_t));
-  if (!values) return std::unexpected(values.error());
-  if (auto filled = values->fill_zero(); !filled) return std::unexpected(filled.error());
+  const Kernel kernel = commands.kernel("measure_operations");
+  const Buffer values = commands.allocate_zeros(kMaxInvocations * sizeof(std::uint32_t));
   for (std::int64_t invocations = 1 << 12;; invocations *= 4) {
-    const auto seconds = best_seconds(commands, [&] { commands.dispatch(*kernel, {invocations}, kRounds, {*values}); });
-    if (!seconds) return seconds;
-    if (*seconds >= kLongEnough || invocations == kMaxInvocations)
-      return kRoundOperations * kRounds * static_cast<double>(invocations) / *seconds;
+    QUORUM_ASSIGN(const double seconds,
+                  best_seconds(commands, [&] { commands.dispatch(kernel, {invocations}, kRounds, {values}); }));
+    if (seconds >= kLongEnough || invocations == kMaxInvocations)
+      return kRoundOperations * kRounds * static_cast<double>(invocations) / seconds;
   }
 }
 
-Expected<double> bytes_per_second(const Device& device, Commands& commands) {
-  const std::uint64_t size = std::min(kCopyBytes, device.info().max_storage_buffer_range);
-  auto source = Buffer::create(device, size);
-  if (!source) return std::unexpected(source.error());
-  auto target = Buffer::create(device, size);
-  if (!target) return std::unexpected(target.error());
-  if (auto filled = source->fill_zero(); !filled) return std::unexpected(filled.error());
-  const auto seconds = best_seconds(commands, [&] { commands.copy(*source, *target); });
-  if (!seconds) return seconds;
-  return 2.0 * static_cast<double>(size) / *seconds;
+Expected<double> bytes_per_second(Commands& commands) {
+  const std::uint64_t size = std::min(kCopyBytes, commands.device().info().max_storage_buffer_range);
+  const Buffer source = commands.allocate_zeros(size);
+  const Buffer target = commands.allocate(size);
+  QUORUM_ASSIGN(const double seconds, best_seconds(commands, [&] { commands.copy(source, target); }));
+  return 2.0 * static_cast<double>(size) / seconds;
 }
 
 }  // namespace
 
 Expected<DeviceRates> measure_device_rates(const Device& device) {
-  auto commands = Commands::create(device);
-  if (!commands) return std::unexpected(commands.error());
-  const auto operations = operations_per_second(device, *commands);
-  if (!operations) return std::unexpected(operations.error());
-  const auto bytes = bytes_per_second(device, *commands);
-  if (!bytes) return std::unexpected(bytes.error());
-  return DeviceRates{*operations, *bytes};
+  QUORUM_ASSIGN(auto commands, Commands::create(device));
+  QUORUM_ASSIGN(const auto operations, operations_per_second(commands));
+  QUORUM_ASSIGN(const auto bytes, bytes_per_second(commands));
+  return DeviceRates{operations, bytes};
 }
 
 }  // namespace quorum

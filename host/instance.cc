@@ -100,12 +100,11 @@ void describe_extensions(const vk::raii::PhysicalDevice& physical, DeviceInfo& i
 }  // namespace
 
 Expected<Instance> make_instance(bool validation) {
-  auto context = load_vulkan();
-  if (!context) return std::unexpected(context.error());
+  QUORUM_ASSIGN(auto context, load_vulkan());
   try {
-    auto extensions = context->enumerateInstanceExtensionProperties();
+    auto extensions = context.enumerateInstanceExtensionProperties();
     if (validation) {
-      const auto layers = context->enumerateInstanceLayerProperties();
+      const auto layers = context.enumerateInstanceLayerProperties();
       const auto is_validation = [](const auto& layer) {
         return layer.layerName == std::string_view(kValidationLayer);
       };
@@ -114,13 +113,13 @@ Expected<Instance> make_instance(bool validation) {
                        fmt::format("the layer {} is not installed: install it (Debian: vulkan-validationlayers)",
                                    kValidationLayer));
       }
-      const auto more = context->enumerateInstanceExtensionProperties(std::string(kValidationLayer));
+      const auto more = context.enumerateInstanceExtensionProperties(std::string(kValidationLayer));
       extensions.insert(extensions.end(), more.begin(), more.end());
     }
     const bool debug_utils = offers(extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     const bool features = validation && offers(extensions, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
-    auto handle = create_instance(*context, validation, debug_utils, features);
-    return Instance{std::move(*context), std::move(handle), debug_utils};
+    auto handle = create_instance(context, validation, debug_utils, features);
+    return Instance{std::move(context), std::move(handle), debug_utils};
   } catch (const vk::SystemError& exception) {
     return failure(ErrorKind::kNoDevice, fmt::format("there is no usable Vulkan driver ({}): install one (Debian: "
                                                      "mesa-vulkan-drivers), or use --device cpu",

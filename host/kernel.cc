@@ -83,20 +83,13 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& device, const KernelCod
 
 }  // namespace
 
-Kernel::Kernel(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Kernel::Kernel(Kernel&& other) noexcept = default;
-Kernel& Kernel::operator=(Kernel&& other) noexcept = default;
-Kernel::~Kernel() = default;
-
 Expected<Kernel> Kernel::create(const Device& device, const KernelCode& code,
                                 const std::vector<SpecConstant>& constants) {
-  auto state = std::make_unique<State>();
+  auto state = std::make_shared<State>();
   state->device = device.state();
   state->name = code.name;
   state->layout = reflect_kernel(code, constants);
-  if (auto fits = check_limits(*state->device, state->name, state->layout); !fits) {
-    return std::unexpected(fits.error());
-  }
+  QUORUM_TRY(check_limits(*state->device, state->name, state->layout));
   return guarded(fmt::format("building kernel {} on {}", code.name, device.info().name), [&] {
     const vk::raii::Device& vulkan = state->device->device;
     state->set_layout = make_set_layout(vulkan, state->layout);

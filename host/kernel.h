@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/error.h"
@@ -12,19 +13,20 @@
 
 namespace quorum {
 
-/// Move-only; a moved-from kernel may only be assigned to or destroyed.
+/// Copies are the same kernel.
 class Kernel {
  public:
+  /// No kernel: to be assigned to, or handed to Commands that have failed.
+  Kernel() = default;
+
   /// Builds a kernel with specialization constants by name, such as {{"kWindow", 5}}; those not named keep the defaults
   /// of the shader. A name that the kernel does not declare stops the program. Fails (kDevice) if the work group or the
   /// number of buffers exceeds the device's limits, or if the driver can't compile the kernel.
   static Expected<Kernel> create(const Device& device, const KernelCode& code,
                                  const std::vector<SpecConstant>& constants = {});
 
-  Kernel(Kernel&& other) noexcept;
-  Kernel& operator=(Kernel&& other) noexcept;
-  ~Kernel();
-
+  /// True if this is no kernel.
+  [[nodiscard]] bool empty() const { return state_ == nullptr; }
   [[nodiscard]] const std::string& name() const;
   /// Bindings, push-constant size, work-group size and constants, as specialized.
   [[nodiscard]] const KernelLayout& layout() const;
@@ -34,8 +36,8 @@ class Kernel {
   [[nodiscard]] const State& state() const { return *state_; }
 
  private:
-  explicit Kernel(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  explicit Kernel(std::shared_ptr<State> state) : state_(std::move(state)) {}
+  std::shared_ptr<State> state_;
 };
 
 }  // namespace quorum

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/depth/fit_planes.h"
+#include "engine/depth/outside_planes.h"
 #include "engine/depth/support_windows.h"
 #include "engine/depth/vote_depth.h"
-#include "host/kernel_table.h"
 #include "host/sweep_texels.h"
 
 namespace quorum {
@@ -40,7 +39,7 @@ std::vector<PlaneNeighbor> make_neighbors(const SweepTask& task) {
 std::vector<PlanePixel> make_pixels(const SweepTask& task) {
   const Grid<SupportWindow> windows =
       make_support_windows(*task.reference, task.options.window, task.options.support_tolerance);
-  const Grid<InverseDepthRange> ranges = inverse_depth_ranges(task.ranges, task.planes);
+  const Grid<InverseDepthRange> ranges = inverse_depth_ranges(task);
   std::vector<PlanePixel> pixels;
   pixels.reserve(ranges.values.size());
   for (std::size_t i = 0; i < ranges.values.size(); ++i) pixels.push_back({windows.values[i], ranges.values[i]});
@@ -48,10 +47,10 @@ std::vector<PlanePixel> make_pixels(const SweepTask& task) {
 }
 
 /// The planes that the pixels begin with.
-std::vector<PlaneTexel> first_planes(const SweepTask& task, const Grid<PixelVote>& first_pass) {
+std::vector<PlaneTexel> first_texels(const SweepTask& task, const Grid<PixelVote>& first_pass) {
   std::vector<PlaneTexel> planes;
   planes.reserve(first_pass.values.size());
-  for (const PlaneTrial& trial : fit_planes(first_pass, task.planes).values)
+  for (const PlaneTrial& trial : first_planes(task, first_pass).values)
     planes.push_back({trial.inverse_depth, trial.slope_x, trial.slope_y, -1.0F});
   return planes;
 }
@@ -65,57 +64,44 @@ std::int64_t rows_per_lane(const SweepTask& task, std::int64_t moves, std::uint3
 
 }  // namespace
 
-PlaneLanesStage::PlaneLanesStage(const Device& device, Commands& commands)
-    : device_(&device), commands_(&commands), kernels_(device, "refine_planes_lanes") {}
-
 bool PlaneLanesStage::fits(const SweepTask& task) const {
-  const DeviceInfo& info = device_->info();
+  const DeviceInfo& info = commands_->device().info();
   const std::uint64_t pixels = quad_count(*task.reference) * (sizeof(PlanePixel) / sizeof(Texel));
   const std::uint64_t texels = std::max(all_quads(task), pixels);
   return texels <= info.max_texel_buffer_elements && texels <= info.max_allocation / sizeof(Texel);
 }
 
-Expected<Buffer> PlaneLanesStage::upload_images(const SweepTask& task) const {
-  auto quads = Buffer::create(*device_, sizeof(Texel) * all_quads(task), BufferUse::kInParts);
-  if (!quads) return quads;
-  if (auto done = quads->upload(make_quads(*task.reference)); !done) return std::unexpected(done.error());
+Buffer PlaneLanesStage::upload_images(const SweepTask& task) const {
+  Buffer quads = commands_->allocate(sizeof(Texel) * all_quads(task), BufferUse::kInParts);
+  commands_->upload(make_quads(*task.reference), quads, 0);
   std::uint64_t offset = quads_size(*task.reference);
   for (const auto& image : task.neighbors) {
-    if (auto done = quads->upload(make_quads(*image), offset); !done) return std::unexpected(done.error());
+    commands_->upload(make_quads(*image), quads, offset);
     offset += quads_size(*image);
   }
   return quads;
 }
 
-Expected<PlaneLanesStage::Buffers> PlaneLanesStage::upload(const SweepTask& task,
-                                                           const Grid<PixelVote>& first_pass) const {
-  auto neighbors = Buffer::of(*device_, make_neighbors(task));
-  if (!neighbors) return std::unexpected(neighbors.error());
-  auto pixels = Buffer::of(*device_, make_pixels(task), BufferUse::kInParts);
-  if (!pixels) return std::unexpected(pixels.error());
-  auto quads = upload_images(task);
-  if (!quads) return std::unexpected(quads.error());
-  auto last = Buffer::of(*device_, first_planes(task, first_pass), BufferUse::kInParts);
-  if (!last) return std::unexpected(last.error());
-  auto planes = Buffer::create(*device_, last->size(), BufferUse::kInParts);
-  if (!planes) return std::unexpected(planes.error());
-  auto correlations = Buffer::create(*device_, sizeof(float) * first_pass.values.size(), BufferUse::kInParts);
-  if (!correlations) return std::unexpected(correlations.error());
-  if (auto cleared = correlations->fill_zero(); !cleared) return std::unexpected(cleared.error());
-  return Buffers{std::move(*neighbors), std::move(*pixels), std::move(*quads),
-                 std::move(*last),      std::move(*planes), std::move(*correlations)};
+PlaneLanesStage::Buffers PlaneLanesStage::upload(const SweepTask& task, const Grid<PixelVote>& first_pass) const {
+  const std::size_t pixels = first_pass.values.size();
+  return {.neighbors = commands_->upload(make_neighbors(task)),
+          .pixels = commands_->upload(make_pixels(task), BufferUse::kInParts),
+          .quads = upload_images(task),
+          .last = commands_->upload(first_texels(task, first_pass), BufferUse::kInParts),
+          .planes = commands_->allocate(sizeof(PlaneTexel) * pixels, BufferUse::kInParts),
+          .correlations = commands_->allocate_zeros(sizeof(float) * pixels, BufferUse::kInParts)};
 }
 
 Expected<void> PlaneLanesStage::run_round(const SweepTask& task, Buffers& buffers, const std::vector<PlaneMove>& moves,
                                           bool is_first) {
-  const auto move_buffer = Buffer::of(*device_, moves);
-  if (!move_buffer) return std::unexpected(move_buffer.error());
+  const DeviceInfo& info = commands_->device().info();
+  const Buffer move_buffer = commands_->upload(moves);
   const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
   const auto move_count = static_cast<std::int64_t>(moves.size());
   const std::int64_t width = task.ranges.width;
   const std::int64_t height = task.ranges.height;
-  const std::int64_t most_rows = rows_per_lane(task, move_count, device_->info().max_loop_iterations);
-  const auto most_planes = static_cast<std::int64_t>(device_->info().max_storage_buffer_range / sizeof(PlaneTexel));
+  const std::int64_t most_rows = rows_per_lane(task, move_count, info.max_loop_iterations);
+  const auto most_planes = static_cast<std::int64_t>(info.max_storage_buffer_range / sizeof(PlaneTexel));
   const std::int64_t run_pixels =
       std::min(kSamplesOfRun / (move_count * task.neighbor_count() * task.options.window * task.options.window),
                most_planes - kViewMultiple);
@@ -144,25 +130,23 @@ Expected<void> PlaneLanesStage::run_round(const SweepTask& task, Buffers& buffer
     };
     const std::int64_t groups = ((width + kLanes - 1) / kLanes) * ((end - begin + rows - 1) / rows);
     commands_->dispatch(kernels_.at(task.options.window), {groups * kLanes}, params,
-                        {*move_buffer, buffers.neighbors, buffers.pixels, buffers.quads, buffers.last,
+                        {move_buffer, buffers.neighbors, buffers.pixels, buffers.quads, buffers.last,
                          run_of(buffers.planes, sizeof(PlaneTexel)), run_of(buffers.correlations, sizeof(float))});
-    if (auto done = commands_->submit(); !done) return done;
+    QUORUM_TRY(commands_->submit());
   }
   std::swap(buffers.last, buffers.planes);
   return {};
 }
 
 Expected<Grid<PixelPlane>> PlaneLanesStage::run(const SweepTask& task, const Grid<PixelVote>& first_pass) {
-  if (auto ready = kernels_.prepare(task.options.window); !ready) return std::unexpected(ready.error());
-  auto buffers = upload(task, first_pass);
-  if (!buffers) return std::unexpected(buffers.error());
-  if (auto done = run_round(task, *buffers, {PlaneMove{}}, true); !done) return std::unexpected(done.error());
+  Buffers buffers = upload(task, first_pass);
+  QUORUM_TRY(run_round(task, buffers, {PlaneMove{}}, true));
   for (const std::vector<PlaneMove>& round : plane_rounds(task.planes, task.options.window))
-    if (auto done = run_round(task, *buffers, round, false); !done) return std::unexpected(done.error());
+    QUORUM_TRY(run_round(task, buffers, round, false));
   std::vector<PlaneTexel> planes(first_pass.values.size());
-  if (auto read = buffers->last.download(planes); !read) return std::unexpected(read.error());
+  QUORUM_TRY(commands_->download(buffers.last, planes));
   std::vector<float> correlations(first_pass.values.size());
-  if (auto read = buffers->correlations.download(correlations); !read) return std::unexpected(read.error());
+  QUORUM_TRY(commands_->download(buffers.correlations, correlations));
   Grid<PixelPlane> best(first_pass.width, first_pass.height, kNoPlane);
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const PlaneTexel& plane = planes[i];

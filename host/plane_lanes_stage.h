@@ -14,7 +14,7 @@ namespace quorum {
 
 class PlaneLanesStage {
  public:
-  PlaneLanesStage(const Device& device, Commands& commands);
+  explicit PlaneLanesStage(Commands& commands) : commands_(&commands), kernels_(commands, "refine_planes_lanes") {}
 
   /// True if the device takes the images of the task as texels.
   [[nodiscard]] bool fits(const SweepTask& task) const;
@@ -33,11 +33,10 @@ class PlaneLanesStage {
     Buffer correlations;
   };
 
-  [[nodiscard]] Expected<Buffer> upload_images(const SweepTask& task) const;
-  [[nodiscard]] Expected<Buffers> upload(const SweepTask& task, const Grid<PixelVote>& first_pass) const;
+  [[nodiscard]] Buffer upload_images(const SweepTask& task) const;
+  [[nodiscard]] Buffers upload(const SweepTask& task, const Grid<PixelVote>& first_pass) const;
   Expected<void> run_round(const SweepTask& task, Buffers& buffers, const std::vector<PlaneMove>& moves, bool is_first);
 
-  const Device* device_;
   Commands* commands_;
   WindowKernels kernels_;
 };

@@ -12,8 +12,11 @@ namespace quorum {
 
 class PlaneStage {
  public:
-  /// Fails (kDevice, kMemory) if the device does.
-  static Expected<PlaneStage> create(const Device& device, Commands& commands);
+  /// The commands keep a failure to make kernels.
+  explicit PlaneStage(Commands& commands)
+      : commands_(&commands),
+        refine_planes_(commands.kernel("refine_planes")),
+        score_planes_(commands, "score_planes") {}
 
   /// The best plane per pixel, from the votes of the sweep's first pass. Fails (kDevice, kMemory) if the device does.
   Expected<Grid<PixelPlane>> run(const SweepTask& task, const Grid<PixelVote>& first_pass);
@@ -30,12 +33,10 @@ class PlaneStage {
     Buffer trials;
   };
 
-  PlaneStage(const Device& device, Commands& commands, Kernel refine_planes);
-  [[nodiscard]] Expected<Buffers> upload(const SweepTask& task, const Grid<PixelVote>& first_pass) const;
+  [[nodiscard]] Buffers upload(const SweepTask& task, const Grid<PixelVote>& first_pass) const;
   void score(const SweepTask& task, const Buffers& buffers);
   void refine(const SweepTask& task, const Buffers& buffers, const PlaneMove& move, int tried, bool ends_round);
 
-  const Device* device_;
   Commands* commands_;
   Kernel refine_planes_;
   WindowKernels score_planes_;

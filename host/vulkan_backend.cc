@@ -7,32 +7,36 @@
 namespace quorum {
 
 Expected<std::unique_ptr<VulkanBackend>> VulkanBackend::create(const Device& device, std::optional<SweepForm> form) {
-  auto kept_device = std::make_unique<Device>(device);  // the stages point to it, so it must not move
-  auto commands = Commands::create(*kept_device);
-  if (!commands) return std::unexpected(commands.error());
-  auto kept_commands = std::make_unique<Commands>(std::move(*commands));
-  auto depth = DepthStage::create(*kept_device, *kept_commands, form);
-  if (!depth) return std::unexpected(depth.error());
-  auto confirm = ConfirmStage::create(*kept_device, *kept_commands);
-  if (!confirm) return std::unexpected(confirm.error());
-  auto volume = VolumeStage::create(*kept_device, *kept_commands);
-  if (!volume) return std::unexpected(volume.error());
-  return std::unique_ptr<VulkanBackend>(new VulkanBackend(std::move(kept_device), std::move(kept_commands),
-                                                          std::move(*depth), std::move(*confirm), std::move(*volume)));
+  auto backend = std::unique_ptr<VulkanBackend>(new VulkanBackend(form));
+  QUORUM_TRY(backend->open(device));
+  return backend;
+}
+
+Expected<void> VulkanBackend::open(const Device& device) {
+  QUORUM_ASSIGN(auto commands, Commands::create(device));
+  stages_ = std::make_unique<Stages>(std::move(commands), form_);
+  return stages_->commands.submit();  // the failures of the stages' kernels
+}
+
+Expected<void> VulkanBackend::renew() {
+  lost_times_ = kernel_times();
+  const DeviceInfo info = device().info();
+  QUORUM_ASSIGN(const Device opened, Device::open(info));
+  return open(opened);
 }
 
 std::string VulkanBackend::description() const {
-  const DeviceInfo& info = device_->info();
+  const DeviceInfo& info = device().info();
   return fmt::format("{}, {} {}, Vulkan {}", info.name, info.driver_name, info.driver_version, info.api_version);
 }
 
 bool VulkanBackend::shares_memory() const {
-  return device_->info().kind == DeviceKind::kSoftware || device_->info().kind == DeviceKind::kIntegrated;
+  return device().info().kind == DeviceKind::kSoftware || device().info().kind == DeviceKind::kIntegrated;
 }
 
 std::size_t VulkanBackend::max_blocks(std::uint64_t host_bytes) const {
   constexpr std::uint64_t kBlockBytes = kBlockVoxels * sizeof(Voxel);
-  const std::uint64_t device_bytes = device_->info().largest_device_heap / 4 * 3;  // the rest for the views
+  const std::uint64_t device_bytes = device().info().largest_device_heap / 4 * 3;  // the rest for the views
   return std::min(shares_memory() ? host_bytes / 2 : host_bytes, device_bytes) / kBlockBytes;
 }
 
@@ -44,14 +48,18 @@ std::uint64_t VulkanBackend::view_bytes(std::uint64_t pixels, int neighbors) con
   if (!shares_memory()) return host;
   // Of the device: photographs (software Vulkan takes the four texels of a sample for each of their pixels), support
   // windows, ranges, planes twice, and those that are tried.
-  const std::uint64_t photograph = device_->info().kind == DeviceKind::kSoftware ? 16 : 4;
+  const std::uint64_t photograph = device().info().kind == DeviceKind::kSoftware ? 16 : 4;
   return host + kNccValues +
          (photograph * (1 + static_cast<std::uint64_t>(neighbors)) + (neighbors > 0 ? 100 : 20)) * pixels;
 }
 
 std::vector<StageTime> VulkanBackend::kernel_times() const {
-  std::vector<StageTime> times;
-  for (const RegionTiming& timing : commands_->timings()) times.push_back({timing.name, timing.seconds});
+  std::vector<StageTime> times = lost_times_;
+  for (const RegionTiming& timing : stages_->commands.timings()) {
+    auto time = std::ranges::find(times, timing.name, &StageTime::name);
+    if (time == times.end()) time = times.insert(time, StageTime{timing.name, 0.0});
+    time->seconds += timing.seconds;
+  }
   return times;
 }
 

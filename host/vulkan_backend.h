@@ -18,45 +18,51 @@ class VulkanBackend : public Backend {
   static Expected<std::unique_ptr<VulkanBackend>> create(const Device& device, std::optional<SweepForm> form = {});
 
   [[nodiscard]] std::string description() const override;
-  Expected<DepthMap> sweep_depth(const SweepTask& task) override { return depth_.run(task); }
-  Expected<Grid<float>> confirm_depths(const ConfirmTask& task) override { return confirm_.run(task); }
+  Expected<DepthMap> sweep_depth(const SweepTask& task) override { return stages_->depth.run(task); }
+  Expected<Grid<float>> confirm_depths(const ConfirmTask& task) override { return stages_->confirm.run(task); }
   Expected<void> begin_volume(const VoxelGrid& grid, const FusionOptions& options) override {
-    return volume_.begin(grid, options);
+    return stages_->volume.begin(grid, options);
   }
   Expected<std::vector<std::uint32_t>> collect_blocks(const FusionView& view) override {
-    return volume_.collect_blocks(view);
+    return stages_->volume.collect_blocks(view);
   }
   Expected<void> allocate_blocks(std::vector<std::uint32_t> indices) override {
-    return volume_.allocate_blocks(std::move(indices));
+    return stages_->volume.allocate_blocks(std::move(indices));
   }
   Expected<void> integrate(const FusionView& view, const std::vector<std::uint32_t>& blocks) override {
-    return volume_.integrate(view, blocks);
+    return stages_->volume.integrate(view, blocks);
   }
-  Expected<BlockPool> read_blocks() override { return volume_.read_blocks(); }
-  Expected<void> carve_blocks(const FusionView& view) override { return volume_.carve_blocks(view); }
-  Expected<std::vector<BlockBits>> read_empty() override { return volume_.read_empty(); }
+  Expected<BlockPool> read_blocks() override { return stages_->volume.read_blocks(); }
+  Expected<void> carve_blocks(const FusionView& view) override { return stages_->volume.carve_blocks(view); }
+  Expected<std::vector<BlockBits>> read_empty() override { return stages_->volume.read_empty(); }
   [[nodiscard]] std::size_t max_blocks(std::uint64_t host_bytes) const override;
   [[nodiscard]] std::uint64_t view_bytes(std::uint64_t pixels, int neighbors) const override;
+  /// Opens the device once more, with default options.
+  Expected<void> renew() override;
   [[nodiscard]] std::vector<StageTime> kernel_times() const override;
-  Expected<DeviceRates> measure_rates() override { return measure_device_rates(*device_); }
+  Expected<DeviceRates> measure_rates() override { return measure_device_rates(device()); }
 
  private:
   /// True if the device's memory is the host's.
   [[nodiscard]] bool shares_memory() const;
 
-  VulkanBackend(std::unique_ptr<Device> device, std::unique_ptr<Commands> commands, DepthStage depth,
-                ConfirmStage confirm, VolumeStage volume)
-      : device_(std::move(device)),
-        commands_(std::move(commands)),
-        depth_(std::move(depth)),
-        confirm_(std::move(confirm)),
-        volume_(std::move(volume)) {}
+  /// What is gone with the device.
+  struct Stages {
+    Stages(Commands made, std::optional<SweepForm> form)
+        : commands(std::move(made)), depth(commands, form), confirm(commands), volume(commands) {}
 
-  std::unique_ptr<Device> device_;
-  std::unique_ptr<Commands> commands_;
-  DepthStage depth_;
-  ConfirmStage confirm_;
-  VolumeStage volume_;
+    Commands commands;
+    DepthStage depth;
+    ConfirmStage confirm;
+    VolumeStage volume;
+  };
+  explicit VulkanBackend(std::optional<SweepForm> form) : form_(form) {}
+  Expected<void> open(const Device& device);
+  [[nodiscard]] const Device& device() const { return stages_->commands.device(); }
+
+  std::optional<SweepForm> form_;
+  std::unique_ptr<Stages> stages_;
+  std::vector<StageTime> lost_times_;  // of devices before
 };
 
 }  // namespace quorum

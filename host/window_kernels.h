@@ -4,7 +4,7 @@
 #include <map>
 #include <string_view>
 
-#include "engine/core/error.h"
+#include "host/commands.h"
 #include "host/kernel.h"
 
 namespace quorum {
@@ -12,15 +12,13 @@ namespace quorum {
 class WindowKernels {
  public:
   /// name: of a kernel with the constants kWindow and kShift.
-  WindowKernels(const Device& device, std::string_view name) : device_(&device), name_(name) {}
+  WindowKernels(Commands& commands, std::string_view name) : commands_(&commands), name_(name) {}
 
-  /// Makes the kernel for windows of this side, pixels, unless there is one. Fails (kDevice) if the device does.
-  Expected<void> prepare(int window);
-  /// One that was prepared.
-  [[nodiscard]] const Kernel& at(int window) const { return kernels_.at(window); }
+  /// The kernel for windows of this side, pixels; made if there is none. The commands keep a failure.
+  const Kernel& at(int window);
 
  private:
-  const Device* device_;
+  Commands* commands_;
   std::string_view name_;
   std::map<int, Kernel> kernels_;
 };

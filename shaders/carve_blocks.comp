@@ -31,9 +31,7 @@ void main() {
   int word = int(gl_GlobalInvocationID.x) % kWordsOfBlock;
   if (entry >= list.length()) return;
   int index = int(list[entry]);
-  int x = index % p.blocks[0] * kBlockSide;
-  int y = index / p.blocks[0] % p.blocks[1] * kBlockSide + word % 2 * 4;
-  float z = float(index / (p.blocks[0] * p.blocks[1]) * kBlockSide + word / 2);
+  ivec3 first = first_voxel(index) + ivec3(0, word % 2 * 4, word / 2);
   Projector projector = make_projector();
   int width = p.width;
   float limit_u = float(p.width - 1);
@@ -42,7 +40,8 @@ void main() {
 
   uint bits = 0u;
   for (int i = 0; i < 32; ++i) {
-    Position at = project_voxel(projector, float(x + i % kBlockSide), float(y + i / kBlockSide), z);
+    Position at = project_voxel(projector, float(first.x + i % kBlockSide), float(first.y + i / kBlockSide),
+                                float(first.z));
     VoxelOnSurface voxel = find_on_surface(at, width, limit_u, limit_v, last_pixel);
     bool before = voxel.on_surface && distance_before(voxel, at, width) > 1.0;
     if (before || on_background(voxel, width, last_pixel)) bits |= 1u << i;

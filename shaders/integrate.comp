@@ -31,10 +31,9 @@ void main() {
   // The parameters are read here because software Vulkan reads them lane by lane inside of loops.
   int column = int(gl_GlobalInvocationID.x);
   uvec2 entry = list[p.list_begin + int(gl_GlobalInvocationID.y)];
-  int index = int(entry.x);
-  float x = float(index % p.blocks[0] * kBlockSide + column % kBlockSide);
-  float y = float(index / p.blocks[0] % p.blocks[1] * kBlockSide + column / kBlockSide);
-  int z = index / (p.blocks[0] * p.blocks[1]) * kBlockSide;
+  ivec3 first = first_voxel(int(entry.x));
+  float x = float(first.x + column % kBlockSide);
+  float y = float(first.y + column / kBlockSide);
   int first_voxel = (int(entry.y) - p.pool_begin) * kBlockVoxels + column;
   Projector projector = make_projector();
   int width = p.width;
@@ -46,7 +45,7 @@ void main() {
   uvec4 kept = uvec4(0u);
   uint near = 0u;  // bit i: the voxel of layer i is within the truncation
   [[unroll]] for (int layer = 0; layer < kBlockSide; ++layer) {
-    Position at = project_voxel(projector, x, y, float(z + layer));
+    Position at = project_voxel(projector, x, y, float(first.z + layer));
     VoxelOnSurface voxel = find_on_surface(at, width, limit_u, limit_v, last_pixel);
     precise float distance = distance_before(voxel, at, width);
     bool is_near = voxel.on_surface && distance >= -kBehindShare && distance <= 1.0;
@@ -63,7 +62,7 @@ void main() {
     bool split_03 = (bits & kSplit03) != 0u;
     bool second = (bits & kSecond) != 0u;
     int signed_distance = int(bits & kDistanceBits) - kDistanceScale;
-    Position at = project_voxel(projector, x, y, float(z + layer));
+    Position at = project_voxel(projector, x, y, float(first.z + layer));
     int cell_x = int(at.u);
     int cell_y = int(at.v);
     precise vec2 fraction = vec2(at.u - float(cell_x), at.v - float(cell_y));
@@ -79,7 +78,7 @@ void main() {
     int iu = int(sample_u);
     int iv = int(sample_v);
     int stride = width + 1;
-    int texel = (iv >> kPositionBits) * stride + (iu >> kPositionBits);
+    int texel = texel_index(iu, iv, stride);
     ivec3 color = sample_bilinear(pixels[texel], pixels[texel + 1], pixels[texel + stride], pixels[texel + stride + 1],
                                   iu, iv, kSampleShift);
     color = min((color + 2048 + 8) >> 4, ivec3(255));

@@ -16,6 +16,7 @@ void main() {
   int pixel = y * p.width + x;
   uint cell = 0u;
   if (x < p.width - 1 && y < p.height - 1)
-    cell = cell_triangles(depth[pixel], depth[pixel + 1], depth[pixel + p.width], depth[pixel + p.width + 1], p.max_step);
+    cell = cell_triangles(depth[pixel], depth[pixel + 1], depth[pixel + p.width], depth[pixel + p.width + 1],
+                          p.max_step);
   cells[pixel] = cell;
 }

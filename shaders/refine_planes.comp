@@ -1,9 +1,8 @@
-// Takes the trials that won, and makes the next ones by a move, or ends the round (beyond the paper: windows that lie on
-// the surface). Twin: engine/depth/refine_planes.h.
+// Takes the trials that won, and makes the next ones by a move, or ends the round (beyond the paper: windows that lie
+// on the surface). Twin: engine/depth/refine_planes.cc.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "layout.h"
-#include "lib/exact.glsl"
 #include "lib/plane_moves.glsl"
 
 layout(local_size_x = 64, local_size_y = 1, local_size_z = 1) in;

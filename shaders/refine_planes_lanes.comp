@@ -11,7 +11,8 @@
 #include "lib/place_window.glsl"
 #include "lib/plane_moves.glsl"
 #include "lib/sample_bilinear.glsl"
-#include "lib/ncc_in_doubles.glsl"
+#define NCC_IN_DOUBLES
+#include "lib/ncc_from_sums.glsl"
 
 layout(local_size_x = 8, local_size_y = 1, local_size_z = 1) in;
 layout(constant_id = 0) const int kWindow = 5;
@@ -39,7 +40,7 @@ PixelPlane plane_of(uvec4 texel) {
 struct Window {
   int reference;  // quad of its first pixel
   int reference_width;
-  ivec3 middle;  // its center's color
+  uint middle;  // its center
   int max_difference;
   int first_quad;  // of the neighbor
   int neighbor_width;
@@ -48,34 +49,23 @@ struct Window {
   ivec2 step_y;
 };
 
-// The sums of a neighbor's window: of b, of b * b and of a * b, where a belongs to the support.
-struct Sums {
-  ivec3 b;
-  int bb;
-  int ab;
-};
-
-// Adds a row of samples, and the one below it unless it is the last, so that a quad of the reference serves both.
-void add_rows(inout Sums sums, Window window, int row) {
+// Adds a row of samples, where they belong to the support, and the one below it unless it is the last, so that a quad
+// of the reference serves both.
+void add_rows(inout WindowSums sums, Window window, int row) {
   uvec4 quads_of_rows[kRadius + 1];
   [[unroll]] for (int i = 0; i <= kRadius; ++i)
     quads_of_rows[i] = texelFetch(quads, window.reference + row * window.reference_width + 2 * i);
   [[unroll]] for (int k = 0; k < 2; ++k) {
     bool is_inside = row + k < kWindow;
-    ivec2 start = window.corner + (is_inside ? row + k : row) * window.step_y;
+    int dy = is_inside ? row + k : row;
     [[unroll]] for (int i = 0; i < kWindow; ++i) {
-      ivec2 position = (start + i * window.step_x) >> (kPlacementBits - kPositionBits);
-      int quad_index = (position.y >> kPositionBits) * window.neighbor_width + (position.x >> kPositionBits);
+      ivec2 position = place_sample(window.corner, window.step_x, window.step_y, i, dy);
+      int quad_index = texel_index(position.x, position.y, window.neighbor_width);
       uvec4 quad = texelFetch(quads, window.first_quad + quad_index);
       ivec3 b = sample_bilinear(quad.x, quad.y, quad.z, quad.w, position.x, position.y, kShift);
       uint pixel = quads_of_rows[i / 2][2 * k + i % 2];
-      ivec3 difference = abs(ivec3((uvec3(pixel) >> uvec3(0, 8, 16)) & 0xffu) - window.middle);
-      bool belongs = is_inside && max(max(difference.x, difference.y), difference.z) <= window.max_difference;
-      b = belongs ? b : ivec3(0);
-      ivec3 a = sample_pixel(pixel, kShift);
-      sums.b += b;
-      sums.bb += b.x * b.x + b.y * b.y + b.z * b.z;
-      sums.ab += a.x * b.x + a.y * b.y + a.z * b.z;
+      bool belongs = is_inside && largest_difference(pixel, window.middle) <= window.max_difference;
+      add_sample(sums, sample_pixel(pixel, kShift), belongs ? b : ivec3(0));
     }
   }
 }
@@ -108,11 +98,10 @@ void main() {
   int y = y_begin - 1;
   PixelPlane best = none;
   InverseDepthRange range = InverseDepthRange(1.0, 0.0);
-  ivec3 support_sum = ivec3(0);
-  float inverse_deviation = 0.0;
+  ReferenceWindow reference = ReferenceWindow(int[3](0, 0, 0), 0.0);
   int samples = 0;
   int max_difference = 0;
-  ivec3 middle = ivec3(0);
+  uint middle = 0u;
   int move_index = move_count;
   PlaneTrial trial = kNoTrial;
   int neighbor = 0;
@@ -134,12 +123,12 @@ void main() {
         int pixel = done ? 0 : y * width + x;
         uvec4 support = texelFetch(pixels, 2 * pixel);
         uvec4 rest = texelFetch(pixels, 2 * pixel + 1);
-        support_sum = ivec3(support.xyz);
-        inverse_deviation = uintBitsToFloat(support.w);
+        reference =
+            ReferenceWindow(int[3](int(support.x), int(support.y), int(support.z)), uintBitsToFloat(support.w));
         samples = int(rest.x);
         max_difference = int(rest.y);
         range = InverseDepthRange(uintBitsToFloat(rest.z), uintBitsToFloat(rest.w));
-        middle = ivec3((uvec3(texelFetch(quads, pixel).x) >> uvec3(0, 8, 16)) & 0xffu);
+        middle = texelFetch(quads, pixel).x;
         best = none;
         if (!is_first) best = plane_of(texelFetch(last, pixel));
         best.taken_by = 0;
@@ -181,10 +170,10 @@ void main() {
     ivec2 corner = (at.seen ? at.center : ivec2(0)) - kRadius * (step_x + step_y);
     Window window = Window((y - kRadius) * width + x - kRadius, width, middle, max_difference, int(image.z),
                            neighbor_width, corner, step_x, step_y);
-    Sums sums = Sums(ivec3(0), 0, 0);
+    WindowSums sums = no_sums();
     if (kWindow <= 7) [[unroll]] for (int row = 0; row < kWindow; row += 2) add_rows(sums, window, row);
     else for (int row = 0; row < kWindow; row += 2) add_rows(sums, window, row);  // unrolled it takes long to compile
-    float ncc = ncc_in_doubles(samples, support_sum, inverse_deviation, sums.b, sums.bb, sums.ab);
+    float ncc = ncc_from_sums(reference, sums, samples);
     if (at.seen && ncc > threshold) {
       trial.ncc_sum = add(trial.ncc_sum, ncc);
       ++trial.votes;

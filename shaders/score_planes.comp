@@ -1,6 +1,6 @@
 // NCC of the support of each trial, on its tilted plane, against one neighbor, and its vote (the paper, section 2.1 and
 // appendix A, with windows that lie on the surface). Trials that can't win any more are dropped.
-// Twin: engine/depth/score_planes.h.
+// Twin: engine/depth/score_planes.cc.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "layout.h"
@@ -34,22 +34,20 @@ void main() {
                                       p.neighbor_width, p.neighbor_height);
     int neighbor_stride = p.neighbor_width + 1;
     SupportWindow support = support_windows[pixel];
-    ivec3 middle = sample_pixel(reference_pixels[y * (p.width + 1) + x], kShift);
-    int max_difference = (support.max_difference << 16) >> kShift;
+    uint middle = reference_pixels[y * (p.width + 1) + x];
     WindowSums sums = no_sums();
     int samples = at.seen ? kWindow * kWindow : 0;
     for (int i = 0; i < samples; ++i) {
       int dx = i % kWindow - kRadius;
       int dy = i / kWindow - kRadius;
-      ivec2 position = (at.center + dx * at.step_x + dy * at.step_y) >> (kPlacementBits - kPositionBits);
-      int texel = (position.y >> kPositionBits) * neighbor_stride + (position.x >> kPositionBits);
+      ivec2 position = place_sample(at.center, at.step_x, at.step_y, dx, dy);
+      int texel = texel_index(position.x, position.y, neighbor_stride);
       ivec3 b = sample_bilinear(neighbor_pixels[texel], neighbor_pixels[texel + 1],
                                 neighbor_pixels[texel + neighbor_stride],
                                 neighbor_pixels[texel + neighbor_stride + 1], position.x, position.y, kShift);
-      ivec3 a = sample_pixel(reference_pixels[(y + dy) * (p.width + 1) + x + dx], kShift);
-      ivec3 difference = abs(a - middle);
-      bool belongs = max(max(difference.x, difference.y), difference.z) <= max_difference;
-      add_sample(sums, a, belongs ? b : ivec3(0));
+      uint pixel = reference_pixels[(y + dy) * (p.width + 1) + x + dx];
+      bool belongs = largest_difference(pixel, middle) <= support.max_difference;
+      add_sample(sums, sample_pixel(pixel, kShift), belongs ? b : ivec3(0));
     }
     ReferenceWindow window = ReferenceWindow(support.sum, support.inverse_deviation);
     float ncc = at.seen ? ncc_from_sums(window, sums, support.samples) : kNoNcc;

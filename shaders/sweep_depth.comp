@@ -29,8 +29,8 @@ const int kPixels = kBlockWidth * kBlockHeight;
 const int kColumns = kBlockWidth + kWindow - 1;  // of samples
 const int kRows = kBlockHeight + kWindow - 1;
 
-// What is summed over a window: the channels of b, b * b and a * b. Arrays of one quantity, so that threads side by side
-// use different banks.
+// What is summed over a window: the channels of b, b * b and a * b. Arrays of one quantity, so that threads side by
+// side use different banks.
 const int kQuantities = 5;
 shared int samples[kQuantities][kColumns * kRows];
 shared bool inside[kColumns * kRows];
@@ -45,18 +45,15 @@ ivec3 reference_sample(int x, int y) {
 
 ivec3 neighbor_sample(int u, int v) {
   int stride = p.neighbor_width + 1;
-  int texel = (v >> kPositionBits) * stride + (u >> kPositionBits);
+  int texel = texel_index(u, v, stride);
   return sample_bilinear(neighbor_pixels[texel], neighbor_pixels[texel + 1], neighbor_pixels[texel + stride],
                          neighbor_pixels[texel + stride + 1], u, v, kShift);
 }
 
 float axis_window_ncc(int x, int y, float inverse_depth, ReferenceWindow window) {
-  Projection center = project(p.warp, x, y, inverse_depth, p.neighbor_width, p.neighbor_height);
-  int reach = kRadius * kPositionScale;
-  bool inside = center.inside && center.u >= reach && center.v >= reach &&
-                center.u + reach <= (p.neighbor_width - 1) * kPositionScale &&
-                center.v + reach <= (p.neighbor_height - 1) * kPositionScale;
-  if (!inside) return kNoNcc;
+  Projection center =
+      project(p.warp, x, y, inverse_depth, p.neighbor_width, p.neighbor_height, kRadius * kPositionScale);
+  if (!center.inside) return kNoNcc;
   WindowSums sums = no_sums();
   for (int dy = -kRadius; dy <= kRadius; ++dy)
     for (int dx = -kRadius; dx <= kRadius; ++dx)
@@ -81,14 +78,14 @@ void main() {
   for (int i = thread; i < kColumns * kRows; i += kPixels) {
     int x = item.x - kRadius + i % kColumns;
     int y = item.y - kRadius + i / kColumns;
-    Projection at = project(p.warp, x, y, item.inverse_depth, p.neighbor_width, p.neighbor_height);
+    Projection at = project(p.warp, x, y, item.inverse_depth, p.neighbor_width, p.neighbor_height, 0);
     ivec3 a = reference_sample(x, y);
     ivec3 b = neighbor_sample(at.u, at.v);
     samples[0][i] = b.x;
     samples[1][i] = b.y;
     samples[2][i] = b.z;
-    samples[3][i] = b.x * b.x + b.y * b.y + b.z * b.z;
-    samples[4][i] = a.x * b.x + a.y * b.y + a.z * b.z;
+    samples[3][i] = product(b, b);
+    samples[4][i] = product(a, b);
     inside[i] = at.inside;
   }
   barrier();

@@ -1,5 +1,5 @@
-// The votes of a batch of items: counts and sums over the neighbors, and the best plane of each pixel so far (the paper,
-// section 2.1). Twin: engine/depth/vote_depth.h. The form for software Vulkan: vote_depth_lanes.comp.
+// The votes of a batch of items: counts and sums over the neighbors, and the best plane of each pixel so far (the
+// paper, section 2.1). Twin: engine/depth/vote_depth.h. The form for software Vulkan: vote_depth_lanes.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -5,7 +5,8 @@
 #include "engine/io/file.h"
 #include "engine/io/ply.h"
 #include "engine/io/scene_folder.h"
-#include "tools/run_arguments.h"
+#include "tools/add_options.h"
+#include "tools/messages.h"
 
 namespace quorum {
 namespace {
@@ -15,33 +16,29 @@ struct CalibrateArguments {
   std::filesystem::path truth;
   std::filesystem::path workspace;
   std::filesystem::path picture;
-  SceneOptions files;
+  RunOptions options;
 };
 
 void print_table(const char* name, const Calibration& calibration) {
-  fmt::print("{:<12} {:>9}  {:>10}  {:>11}\n", name, "depths", "mean", "right share");
+  print("{:<12} {:>9}  {:>10}  {:>11}\n", name, "depths", "mean", "right share");
   for (int bin = 0; bin < kCalibrationBins; ++bin) {
     const CalibrationBin& sums = calibration.bins[static_cast<std::size_t>(bin)];
     if (sums.count == 0) continue;
-    fmt::print("{:.1f} to {:.1f}   {:>9}  {:>10.3f}  {:>11.3f}\n", bin / double{kCalibrationBins},
-               (bin + 1) / double{kCalibrationBins}, sums.count, sums.confidence(), sums.share());
+    print("{:.1f} to {:.1f}   {:>9}  {:>10.3f}  {:>11.3f}\n", bin / double{kCalibrationBins},
+          (bin + 1) / double{kCalibrationBins}, sums.count, sums.confidence(), sums.share());
   }
-  fmt::print("mean distance of confidence and share {:.3f}\n\n", calibration.error());
+  print("mean distance of confidence and share {:.3f}\n\n", calibration.error());
 }
 
 Expected<void> calibrate_files(const CalibrateArguments& arguments) {
-  const auto scene = read_scene(arguments.scene, arguments.files);
-  if (!scene) return std::unexpected(scene.error());
-  const auto truth = read_ply(arguments.truth);
-  if (!truth) return std::unexpected(truth.error());
-  const auto workspace = Workspace::open(arguments.workspace);
-  if (!workspace) return std::unexpected(workspace.error());
-  const auto result = calibrate(*scene, *workspace, *truth);
-  if (!result) return std::unexpected(result.error());
-  print_table("confidence", result->confidence);
-  print_table("certainty", result->certainty);
+  QUORUM_ASSIGN(const auto scene, read_scene(arguments.scene, arguments.options.files));
+  QUORUM_ASSIGN(const auto truth, read_ply(arguments.truth, scene.offset));
+  const Workspace workspace = Workspace::at(arguments.workspace);
+  QUORUM_ASSIGN(const auto result, calibrate(scene, workspace, truth));
+  print_table("confidence", result.confidence);
+  print_table("certainty", result.certainty);
   if (arguments.picture.empty()) return {};
-  const CalibrationCurve curves[] = {{"confidence (the paper)", result->confidence}, {"certainty", result->certainty}};
+  const CalibrationCurve curves[] = {{"confidence (the paper)", result.confidence}, {"certainty", result.certainty}};
   return write_file(arguments.picture, calibration_svg(curves));
 }
 
@@ -54,7 +51,7 @@ int calibrate_command(int argc, char** argv) {
   app.add_option("truth", arguments.truth, "PLY file of the true surface")->required();
   app.add_option("-o,--output", arguments.workspace, "Folder with the depth maps of `quorum reconstruct`")->required();
   app.add_option("--picture", arguments.picture, "SVG file for the curves");
-  add_format_options(app, arguments.files);
+  add_named_options(app, arguments.options, {"format", "images", "model", "max-image-size"});
   return run_command(app, argc, argv, [&] { return calibrate_files(arguments); });
 }
 

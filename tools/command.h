@@ -2,9 +2,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
+#include <exception>
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "engine/core/error.h"
 
@@ -14,26 +17,41 @@ namespace quorum {
 int reconstruct_command(int argc, char** argv);
 int photos_command(int argc, char** argv);
 int depth_command(int argc, char** argv);
+int confirm_command(int argc, char** argv);
 int fuse_command(int argc, char** argv);
+int join_command(int argc, char** argv);
+int submit_command(int argc, char** argv);
+int plan_command(int argc, char** argv);
+int status_command(int argc, char** argv);
 int evaluate_command(int argc, char** argv);
 int calibrate_command(int argc, char** argv);
 int render_command(int argc, char** argv);
+int simplify_command(int argc, char** argv);
+int texture_command(int argc, char** argv);
+int report_command(int argc, char** argv);
 int convert_command(int argc, char** argv);
 int synthesize_command(int argc, char** argv);
 int experiment_command(int argc, char** argv);
 int devices_command(int argc, char** argv);
 int bench_command(int argc, char** argv);
+int verify_command(int argc, char** argv);
 
 /// Parses the arguments into app and, if they are right, runs work. A failure is printed as one line "command: …" on
-/// standard error, and its kind is the exit code; --help prints and gives 0.
+/// standard error, and its kind is the exit code; --help prints and gives 0. Results that could not be written are a
+/// failure (kInput); so is an empty word among the arguments (kUsage). Exceptions pass.
 int run_command(CLI::App& app, int argc, char** argv, const std::function<Expected<void>()>& work);
 
-/// A length: a number in scene units, or with um, mm, cm, m or km, for scenes in meters; "auto" is 0.
-/// option: its name, for the message. Fails (kUsage).
-Expected<double> parse_length(const std::string& option, const std::string& text);
+/// Prints a failure as that line; the result is the exit code: 128 + signal if a signal stopped the run, else its kind.
+int fail(std::string_view command, const Error& error);
 
-/// A size of memory in bytes: a number with KiB, MiB, GiB, TiB, kB, MB, GB or TB; "auto" is 0.
-/// option: its name, for the message. Fails (kUsage).
-Expected<std::uint64_t> parse_size(const std::string& option, const std::string& text);
+/// Fails (kUsage) if the output is one of the inputs, under this or another name. Empty inputs and absent files are
+/// none.
+Expected<void> check_not_input(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs);
+
+/// "; did you mean NAME?" of the name that is nearest to a word, as mistyped as a word may be; empty if none is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
+
+/// What an exception tells that nothing closer to its cause has caught.
+Error error_of(const std::exception_ptr& exception);
 
 }  // namespace quorum

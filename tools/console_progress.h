@@ -1,16 +1,28 @@
-// Progress for people: a bar on a terminal, plain lines elsewhere; and the signals that ask to stop.
+// Progress on standard error: for people a bar on a terminal, lines elsewhere; for programs a JSON object a line; and
+// the signals that ask to stop.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/pipeline/progress.h"
+#include "engine/pipeline/progress_meter.h"
+#include "tools/signals.h"
 
 namespace quorum {
 
-/// Prints on standard error. While it lives, SIGTERM and SIGINT ask the run to stop.
+enum class ProgressForm {
+  kText,
+  kJson,  ///< docs/formats.md has the events
+  kNone,
+};
+
+/// While it lives, signals ask the run to stop (StopSignals).
 class ConsoleProgress : public Progress {
  public:
-  explicit ConsoleProgress(bool quiet);
+  explicit ConsoleProgress(bool quiet) : ConsoleProgress(quiet ? ProgressForm::kNone : ProgressForm::kText) {}
+  /// expected: the stages of the run, for its percentage.
+  explicit ConsoleProgress(ProgressForm form, std::vector<StageWeight> expected = {});
   ~ConsoleProgress() override;
 
   void stage(std::string_view name, int steps) override;
@@ -21,13 +33,15 @@ class ConsoleProgress : public Progress {
   void finish();
 
  private:
+  /// A line, or an event, of where the run is. event: "stage" or "step".
+  void tell_state(const char* event);
   void draw() const;
 
-  bool quiet_;
+  ProgressForm form_;
   bool terminal_;
-  std::string name_;
-  int steps_ = 0;
-  int done_ = 0;
+  StopSignals signals_;
+  ProgressMeter meter_;
+  double last_line_ = 0.0;
 };
 
 }  // namespace quorum

@@ -1,10 +1,12 @@
 // quorum convert: a scene in the format of other programs.
+#include <fmt/format.h>
+
 #include <map>
 
 #include "engine/io/convert_scene.h"
-#include "engine/io/file.h"
 #include "engine/io/scene_folder.h"
-#include "tools/run_arguments.h"
+#include "tools/add_options.h"
+#include "tools/messages.h"
 
 namespace quorum {
 
@@ -16,22 +18,21 @@ int convert_command(int argc, char** argv) {
   CLI::App app("Write a scene in the format of other programs; distorted photographs are undistorted.", "convert");
   std::filesystem::path scene_folder;
   std::filesystem::path output;
-  SceneOptions files;
-  ConvertedFormat format = ConvertedFormat::kColmap;
+  RunOptions options;
+  std::string format;
   app.add_option("scene", scene_folder, "Folder with the photographs and their cameras")->required();
   app.add_option("--to", format, "Format to write")
       ->required()
-      ->transform(
-          CLI::CheckedTransformer(formats, CLI::ignore_case).description("colmap, colmap-text, mvsnet, transforms"))
-      ->option_text("NAME");
+      ->option_text("colmap, colmap-text, mvsnet or transforms");
   app.add_option("-o,--output", output, "Folder for the scene; made if missing")->required();
-  add_format_options(app, files);
-  app.add_option("--roi", files.roi, "The box that holds the object: a file of six numbers, or a .ply [found]");
+  add_named_options(app, options, {"format", "images", "model", "max-image-size", "roi"});
   return run_command(app, argc, argv, [&]() -> Expected<void> {
-    const auto scene = read_scene(scene_folder, files);
-    if (!scene) return std::unexpected(scene.error());
-    if (auto made = make_folder(output); !made) return made;
-    return convert_scene(output, *scene, format);
+    const auto named = formats.find(format);
+    if (named == formats.end())
+      return failure(ErrorKind::kUsage, fmt::format("--to {}: give colmap, colmap-text, mvsnet or transforms", format));
+    QUORUM_ASSIGN(const auto scene, read_scene(scene_folder, options.files));
+    for (const std::string& note : scene.notes) tell(note);
+    return convert_scene(output, scene, named->second);
   });
 }
 

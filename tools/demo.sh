@@ -12,9 +12,7 @@ fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 bash tools/install_packages.sh
-launcher=()
-command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-cmake --preset release "${launcher[@]}"
+cmake --preset release  # without ccache, which can't keep what is compiled with precompiled headers
 cmake --build --preset release --parallel "$(nproc)" --target quorum
 quorum=build/release/quorum
 
@@ -44,6 +42,8 @@ for view in "$first" "$second"; do
   done
 done
 
+"$quorum" report demo/result --scene "$scene" >/dev/null
+
 echo
 if [[ -n "$truth" ]]; then
   echo "Against the exact surface $truth:"
@@ -52,5 +52,5 @@ if [[ -n "$truth" ]]; then
 fi
 echo "mesh        $PWD/demo/result/mesh.ply"
 echo "depth maps  $PWD/demo/result/depth/"
-echo "report      $PWD/demo/result/run.json"
+echo "report      $PWD/demo/result/report.html"
 for picture in "${pictures[@]}"; do echo "picture     $PWD/$picture"; done

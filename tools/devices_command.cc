@@ -5,6 +5,7 @@
 
 #include "engine/pipeline/cpu_backend.h"
 #include "tools/command.h"
+#include "tools/messages.h"
 
 #ifdef QUORUM_HAS_VULKAN
 #include "host/device_choice.h"
@@ -33,38 +34,37 @@ nlohmann::ordered_json device_json(const DeviceInfo& device) {
 }
 
 void print_device(const DeviceInfo& device) {
-  fmt::print("{}: {} ({})\n", device.index, device.name, to_string(device.kind));
-  fmt::print("   driver {} {}, Vulkan {}\n", device.driver_name, device.driver_version, device.api_version);
-  fmt::print("   memory {} MiB, largest allocation {} MiB, largest buffer in a kernel {} MiB\n",
-             device.largest_device_heap >> 20, device.max_allocation >> 20, device.max_storage_buffer_range >> 20);
-  fmt::print("   work group up to {} invocations, {} KiB shared memory, subgroups of {}\n",
-             device.max_work_group_invocations, device.shared_memory_bytes >> 10, device.subgroup_size);
-  if (!device.usable()) fmt::print("   not usable: {}\n", device.defect);
+  print("{}: {} ({})\n", device.index, device.name, to_string(device.kind));
+  print("   driver {} {}, Vulkan {}\n", device.driver_name, device.driver_version, device.api_version);
+  print("   memory {} MiB, largest allocation {} MiB, largest buffer in a kernel {} MiB\n",
+        device.largest_device_heap >> 20, device.max_allocation >> 20, device.max_storage_buffer_range >> 20);
+  print("   work group up to {} invocations, {} KiB shared memory, subgroups of {}\n",
+        device.max_work_group_invocations, device.shared_memory_bytes >> 10, device.subgroup_size);
+  if (!device.usable()) print("   not usable: {}\n", device.defect);
 }
 
 Expected<void> list(const std::string& request, bool json) {
   const auto devices = list_devices();
-  const auto choice = choose_device(request);
-  if (!choice) return std::unexpected(choice.error());
-  const std::string chosen = choice->device ? choice->device->name : CpuBackend().description();
+  QUORUM_ASSIGN(const auto choice, choose_device(request));
+  const std::string chosen = choice.device ? choice.device->name : CpuBackend().description();
   if (json) {
     nlohmann::ordered_json all = {{"devices", nlohmann::ordered_json::array()}};
     for (const DeviceInfo& device : devices.value_or(std::vector<DeviceInfo>{}))
       all["devices"].push_back(device_json(device));
     all["cpu"] = CpuBackend().description();
     all["chosen"] = chosen;
-    all["reason"] = choice->reason;
-    fmt::print("{}\n", all.dump(2));
+    all["reason"] = choice.reason;
+    print("{}\n", all.dump(2));
     return {};
   }
   if (!devices)
-    fmt::print("no Vulkan devices: {}\n", devices.error().message);
+    print("no Vulkan devices: {}\n", devices.error().message);
   else if (devices->empty())
-    fmt::print("no Vulkan devices: the Vulkan loader finds no driver\n");
+    print("no Vulkan devices: the Vulkan loader finds no driver\n");
   else
     for (const DeviceInfo& device : *devices) print_device(device);
-  fmt::print("cpu: {}\n", CpuBackend().description());
-  fmt::print("--device {} uses: {} ({})\n", request, chosen, choice->reason);
+  print("cpu: {}\n", CpuBackend().description());
+  print("--device {} uses: {} ({})\n", request, chosen, choice.reason);
   return {};
 }
 
@@ -73,13 +73,13 @@ Expected<void> list(const std::string& request, bool json) {
 Expected<void> list(const std::string&, bool json) {
   const std::string cpu = CpuBackend().description();
   if (json)
-    fmt::print("{}\n", nlohmann::ordered_json{{"devices", nlohmann::ordered_json::array()},
-                                              {"cpu", cpu},
-                                              {"chosen", cpu},
-                                              {"reason", "built without Vulkan"}}
-                           .dump(2));
+    print("{}\n", nlohmann::ordered_json{{"devices", nlohmann::ordered_json::array()},
+                                         {"cpu", cpu},
+                                         {"chosen", cpu},
+                                         {"reason", "built without Vulkan"}}
+                      .dump(2));
   else
-    fmt::print("cpu: {}\nthis build has no Vulkan\n", cpu);
+    print("cpu: {}\nthis build has no Vulkan\n", cpu);
   return {};
 }
 

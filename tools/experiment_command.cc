@@ -1,12 +1,9 @@
 // quorum experiment: the experiments of the paper's section 4.
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
-
-#include <optional>
 
 #include "engine/experiment/experiment.h"
 #include "engine/experiment/run_experiments.h"
-#include "tools/command.h"
+#include "tools/add_options.h"
 #include "tools/console_progress.h"
 #include "tools/open_backend.h"
 
@@ -15,21 +12,15 @@ namespace {
 
 struct Arguments {
   ExperimentArguments experiment;
-  std::string device = "auto";
-  int threads = 0;
+  RunOptions options;
   bool quiet = false;
 };
 
 Expected<void> run(const Arguments& arguments) {
-  if (arguments.threads < 0 || arguments.threads > 1024)
-    return failure(ErrorKind::kUsage, fmt::format("--threads {}: give 1 to 1024, or 0 for all", arguments.threads));
-  std::optional<tbb::global_control> limit;
-  if (arguments.threads > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
+  const ThreadLimit limit(arguments.options.threads);
   ConsoleProgress progress(arguments.quiet);
-  auto backend = open_backend(arguments.device, {});
-  if (!backend) return std::unexpected(backend.error());
-  auto done = run_experiments(paper_catalog(), arguments.experiment, **backend, progress);
+  QUORUM_ASSIGN(auto backend, open_backend(arguments.options));
+  auto done = run_experiments(paper_catalog(), arguments.experiment, *backend, progress);
   progress.finish();
   if (done) progress.note((arguments.experiment.output / "experiments.md").string());
   return done;
@@ -54,9 +45,7 @@ int experiment_command(int argc, char** argv) {
   app.add_option("--data", arguments.experiment.data,
                  "Folder that holds the data sets, each in a folder of its name (templeRing, dragonRing …) "
                  "[none: synthetic scenes alone]");
-  app.add_option("--device", arguments.device, "auto, cpu, an index or a part of a name of `quorum devices`")
-      ->capture_default_str();
-  app.add_option("--threads", arguments.threads, "CPU threads; 0: all")->capture_default_str();
+  add_named_options(app, arguments.options, {"device", "threads"});
   app.add_flag("--quiet", arguments.quiet, "Print nothing but errors");
   app.footer(list_of_experiments());
   return run_command(app, argc, argv, [&] { return run(arguments); });

@@ -1,15 +1,19 @@
 // quorum fuse: the mesh from depth maps that `quorum depth` left in the output folder.
-#include "tools/run_arguments.h"
+#include "tools/run_pipeline.h"
 
 namespace quorum {
 
 int fuse_command(int argc, char** argv) {
   CLI::App app("Merge the depth maps in the output folder into a mesh.", "fuse");
   RunArguments arguments;
-  arguments.add_scene_and_output(app);
-  arguments.add_fuse_options(app);
-  arguments.add_device_and_output_options(app);
-  return run_command(app, argc, argv, [&] { return run_pipeline(arguments, fuse_depth_maps); });
+  arguments.add_scene(app);
+  arguments.add_output(app);
+  arguments.takes_depth_options = true;
+  add_run_options(app, arguments.options,
+                  {RunStage::kScene, RunStage::kConfirm, RunStage::kFusion, RunStage::kClean, RunStage::kExtras,
+                   RunStage::kNone, RunStage::kShards});
+  add_named_options(app, arguments.options, {"mask-below"});  // with fill-holes, what is dark is background
+  return run_command(app, argc, argv, [&] { return run_pipeline(arguments, {.depth_maps = false}); });
 }
 
 }  // namespace quorum

@@ -2,33 +2,41 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/option.h"
+#include "engine/pipeline/cpu_backend.h"
+
 #ifdef QUORUM_HAS_VULKAN
 #include "host/device_choice.h"
 #include "host/vulkan_backend.h"
 #endif
 
 namespace quorum {
+namespace {
+
+std::unique_ptr<Backend> make_cpu_backend(const RunOptions& options) {
+  return std::make_unique<CpuBackend>(
+      CpuSweepOptions{options.simd.value_or(best_simd_level()), options.tile_width, options.tile_height});
+}
+
+}  // namespace
 
 #ifdef QUORUM_HAS_VULKAN
 
-Expected<std::unique_ptr<Backend>> open_backend(const std::string& request, const CpuSweepOptions& cpu) {
-  auto choice = choose_device(request);
-  if (!choice) return std::unexpected(choice.error());
-  if (!choice->device) return std::make_unique<CpuBackend>(cpu);
-  auto device = Device::open(*choice->device);
-  if (!device) return std::unexpected(device.error());
-  auto backend = VulkanBackend::create(*device);
-  if (!backend) return std::unexpected(backend.error());
-  return std::move(*backend);
+Expected<std::unique_ptr<Backend>> open_backend(const RunOptions& options) {
+  QUORUM_ASSIGN(auto choice, choose_device(options.device));
+  if (!choice.device) return make_cpu_backend(options);
+  QUORUM_ASSIGN(auto device, Device::open(*choice.device));
+  QUORUM_ASSIGN(auto backend, VulkanBackend::create(device));
+  return backend;
 }
 
 #else
 
-Expected<std::unique_ptr<Backend>> open_backend(const std::string& request, const CpuSweepOptions& cpu) {
-  if (request == "auto" || request == "cpu") return std::make_unique<CpuBackend>(cpu);
-  return failure(
-      ErrorKind::kNoDevice,
-      fmt::format("--device {}: this build has no Vulkan; give cpu, or build with QUORUM_VULKAN=ON", request));
+Expected<std::unique_ptr<Backend>> open_backend(const RunOptions& options) {
+  if (options.device == "auto" || options.device == "cpu") return make_cpu_backend(options);
+  return failure(ErrorKind::kNoDevice,
+                 fmt::format("{} {}: this build has no Vulkan; give cpu, or build with QUORUM_VULKAN=ON",
+                             option_name("device"), options.device));
 }
 
 #endif

@@ -4,11 +4,15 @@
 #include <algorithm>
 
 #include "engine/evaluate/color_by_error.h"
+#include "engine/io/glb.h"
 #include "engine/io/image_file.h"
+#include "engine/io/image_store.h"
 #include "engine/io/ply.h"
 #include "engine/io/scene_folder.h"
-#include "engine/mesh/render_points.h"
-#include "tools/run_arguments.h"
+#include "engine/render/compare_pictures.h"
+#include "engine/render/render_points.h"
+#include "tools/add_options.h"
+#include "tools/messages.h"
 
 namespace quorum {
 namespace {
@@ -16,25 +20,47 @@ namespace {
 struct RenderArguments {
   std::filesystem::path mesh;
   std::filesystem::path scene;
-  SceneOptions files;
+  RunOptions options;
   std::string view;
   std::filesystem::path output;
   std::string shading = "shaded";
   std::filesystem::path truth;
   std::string full_error = "1mm";
+  bool compares = false;
 };
 
-/// The mesh as it is, or in the colors of its error.
-Expected<Mesh> read_mesh(const RenderArguments& arguments) {
-  auto mesh = read_ply(arguments.mesh);
+Expected<TexturedMesh> read_any_mesh(const std::filesystem::path& path, const Scene& scene) {
+  if (path.extension() == ".glb") return read_glb(path, scene.offset);
+  TexturedMesh mesh;
+  QUORUM_ASSIGN(mesh.mesh, read_ply(path, scene.offset));
+  return mesh;
+}
+
+/// The mesh as it is, or in the colors of its error, in the scene's frame.
+Expected<TexturedMesh> read_mesh(const RenderArguments& arguments, const Scene& scene) {
+  auto mesh = read_any_mesh(arguments.mesh, scene);
   if (!mesh || arguments.shading != "error") return mesh;
   if (arguments.truth.empty())
     return failure(ErrorKind::kUsage, "--shading error: give the true surface with --truth FILE");
-  const auto full_error = parse_length("--full-error", arguments.full_error);
-  if (!full_error) return std::unexpected(full_error.error());
-  const auto truth = read_ply(arguments.truth);
-  if (!truth) return std::unexpected(truth.error());
-  return color_by_error(std::move(*mesh), *truth, *full_error);
+  const auto full_error = parse_length(arguments.full_error);
+  if (!full_error || !(*full_error > 0))
+    return failure(ErrorKind::kUsage, fmt::format("--full-error {}: give a length such as 1mm", arguments.full_error));
+  QUORUM_ASSIGN(const auto truth, read_ply(arguments.truth, scene.offset));
+  QUORUM_ASSIGN(mesh->mesh, color_by_error(std::move(mesh->mesh), truth, *full_error));
+  mesh->pages.clear();
+  return mesh;
+}
+
+/// Tells how like the picture is to the photograph where it shows the mesh and no mask leaves it out.
+Expected<void> compare(const Scene& scene, double mask_below, int view, const ColorImage& picture, Mask where) {
+  ImageStore images(scene, 0, mask_below);
+  QUORUM_ASSIGN(const auto photograph, images.image(view));
+  QUORUM_ASSIGN(const auto mask, images.mask(view));
+  for (std::size_t pixel = 0; pixel < mask->values.size(); ++pixel) where.values[pixel] &= mask->values[pixel];
+  const PictureLikeness likeness = compare_pictures(picture, *photograph, where);
+  write_result(
+      fmt::format("PSNR {:.2f} dB, SSIM {:.4f} on {} pixels\n", likeness.psnr, likeness.ssim, likeness.pixels));
+  return {};
 }
 
 Expected<void> render_file(const RenderArguments& arguments) {
@@ -45,19 +71,37 @@ Expected<void> render_file(const RenderArguments& arguments) {
                     : arguments.shading == "confidence" ? Shading::kConfidence
                     : arguments.shading == "normal"     ? Shading::kNormal
                                                         : Shading::kShaded;
-  const auto scene = read_scene(arguments.scene, arguments.files);
-  if (!scene) return std::unexpected(scene.error());
-  const auto view = std::find_if(scene->views.begin(), scene->views.end(),
-                                 [&](const View& candidate) { return candidate.name == arguments.view; });
-  if (view == scene->views.end())
-    return failure(ErrorKind::kUsage, fmt::format("--view {}: no such view; there are {} to {}", arguments.view,
-                                                  scene->views.front().name, scene->views.back().name));
-  const auto mesh = read_mesh(arguments);
-  if (!mesh) return std::unexpected(mesh.error());
-  const auto render = mesh->triangles.empty() ? render_points : render_mesh;
-  const auto image = render(*mesh, view->camera, view->width, view->height, options);
-  if (!image) return std::unexpected(image.error());
-  return write_png(arguments.output, *image);
+  QUORUM_ASSIGN(const auto scene, read_scene(arguments.scene, arguments.options.files));
+  std::vector<std::filesystem::path> inputs = {arguments.mesh, arguments.truth};
+  for (const View& view : scene.views) inputs.insert(inputs.end(), {view.image_path, view.mask_path});
+  QUORUM_TRY(check_not_input(arguments.output, inputs));
+  const auto is_view = [&](const View& view) {
+    return view.name == arguments.view || view.image_name == arguments.view ||
+           view.image_path.filename() == arguments.view || view.image_path.stem() == arguments.view;
+  };
+  const auto view = std::ranges::find_if(scene.views, is_view);
+  if (view == scene.views.end()) {
+    std::vector<std::string> names;
+    for (const View& candidate : scene.views) names.push_back(candidate.name);
+    return failure(ErrorKind::kUsage, fmt::format("--view {}: no such view{}; there are {} to {}", arguments.view,
+                                                  did_you_mean(arguments.view, names), names.front(), names.back()));
+  }
+  QUORUM_ASSIGN(const auto mesh, read_mesh(arguments, scene));
+  if (mesh.mesh.vertices.empty())
+    return failure(ErrorKind::kInput,
+                   fmt::format("{}: has no vertex, so there is nothing to draw; check the run that made it",
+                               arguments.mesh.string()));
+  if (mesh.mesh.triangles.empty()) {
+    if (arguments.compares) return failure(ErrorKind::kUsage, "--compare: takes a surface; a cloud leaves gaps");
+    QUORUM_ASSIGN(const auto image, render_points(mesh.mesh, view->camera, view->width, view->height, options));
+    return write_image(arguments.output, image);
+  }
+  Mask whole;
+  QUORUM_ASSIGN(const auto image, render_textured(mesh, view->camera, view->width, view->height, options, &whole));
+  if (arguments.compares)
+    QUORUM_TRY(
+        compare(scene, arguments.options.mask_below, static_cast<int>(view - scene.views.begin()), image, whole));
+  return write_image(arguments.output, image);
 }
 
 }  // namespace
@@ -65,17 +109,19 @@ Expected<void> render_file(const RenderArguments& arguments) {
 int render_command(int argc, char** argv) {
   CLI::App app("Draw a mesh, or a cloud of points, as one of the scene's cameras sees it.", "render");
   RenderArguments arguments;
-  app.add_option("mesh", arguments.mesh, "PLY file")->required();
+  app.add_option("mesh", arguments.mesh, "PLY file, or GLB file of quorum texture or simplify")->required();
   app.add_option("--scene", arguments.scene, "Folder of the scene")->required();
-  add_format_options(app, arguments.files);
-  app.add_option("--view", arguments.view, "Name of the view: its image file without extension")->required();
-  app.add_option("-o,--output", arguments.output, "PNG file")->required();
+  add_named_options(app, arguments.options, {"format", "images", "model", "masks", "mask-below", "max-image-size"});
+  app.add_option("--view", arguments.view, "Name of the view: its photograph, with or without extension")->required();
+  app.add_option("-o,--output", arguments.output, "Picture: .png, .jpg, .tif, .bmp or .webp")->required();
   app.add_option("--shading", arguments.shading, "What to show")
       ->check(CLI::IsMember({"shaded", "color", "confidence", "normal", "error"}))
       ->capture_default_str();
   app.add_option("--truth", arguments.truth, "PLY file of the true surface, for --shading error");
   app.add_option("--full-error", arguments.full_error, "Distance from the truth that is drawn red; 0 is blue")
       ->capture_default_str();
+  app.add_flag("--compare", arguments.compares,
+               "Tell PSNR and SSIM against the photograph where the mesh is seen; for --shading color");
   return run_command(app, argc, argv, [&] { return render_file(arguments); });
 }
 

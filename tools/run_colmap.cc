@@ -2,15 +2,21 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <spawn.h>
+#include <sys/file.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <initializer_list>
+#include <iterator>
 #include <string>
 #include <vector>
 
+#include "engine/io/colmap.h"
 #include "engine/io/file.h"
 
 extern char** environ;
@@ -23,7 +29,7 @@ namespace fs = std::filesystem;
 /// A call of colmap; name: of its log and of the note that it is done.
 struct Step {
   std::string name;
-  std::vector<std::string> arguments;
+  std::string command;
 };
 
 bool is_photograph(const fs::path& path) {
@@ -33,16 +39,22 @@ bool is_photograph(const fs::path& path) {
          0;
 }
 
-/// A line per photograph: what tells it from another one. Sorted.
+/// A line per photograph: what tells it from another one. Sorted. Links to folders are not followed, so none loops.
 Expected<std::vector<std::string>> describe(const fs::path& photos) {
   std::vector<std::string> lines;
   std::error_code code;
   for (fs::recursive_directory_iterator entry(photos, code); !code && entry != fs::recursive_directory_iterator();
-       entry.increment(code))
-    if (entry->is_regular_file() && is_photograph(entry->path()))
-      lines.push_back(fmt::format("{} {} {}", fs::relative(entry->path(), photos).string(), entry->file_size(),
-                                  entry->last_write_time().time_since_epoch().count()));
-  if (code) return failure(ErrorKind::kInput, fmt::format("{}: cannot be listed: {}", photos.string(), code.message()));
+       entry.increment(code)) {
+    std::error_code ignored;
+    if (!is_photograph(entry->path()) || !entry->is_regular_file(ignored)) continue;
+    const auto size = entry->file_size(ignored);
+    const auto time = entry->last_write_time(ignored);
+    lines.push_back(fmt::format("{} {} {}", entry->path().lexically_relative(photos).string(), size,
+                                time.time_since_epoch().count()));
+  }
+  if (code)
+    return failure(ErrorKind::kInput, fmt::format("{}: cannot be listed: {}; check the path and the permissions",
+                                                  photos.string(), code.message()));
   if (lines.size() < 3)
     return failure(ErrorKind::kInput, fmt::format("{}: holds {} photographs (jpg, png, tif), expected 3 or more",
                                                   photos.string(), lines.size()));
@@ -50,81 +62,173 @@ Expected<std::vector<std::string>> describe(const fs::path& photos) {
   return lines;
 }
 
-/// Runs colmap with its output in a file.
-Expected<void> call(const Step& step, const fs::path& log) {
+Error stopped_between_steps() { return {ErrorKind::kStopped, "stopped as asked; finished steps are kept"}; }
+
+/// Ends a process and those that it started: asked first, then at once.
+void end_group(pid_t process) {
+  ::kill(-process, SIGTERM);
+  for (int wait = 0; wait < 100 && ::waitpid(process, nullptr, WNOHANG) == 0; ++wait) ::usleep(10'000);
+  ::kill(-process, SIGKILL);
+  ::waitpid(process, nullptr, 0);
+}
+
+/// Runs colmap with its output in a file; the result is its exit status. It has a process group of its own, which ends
+/// with us when we are asked to stop.
+Expected<int> call(const std::vector<std::string>& arguments, const fs::path& log, const Progress& progress) {
   std::vector<std::string> words = {"colmap"};
-  words.insert(words.end(), step.arguments.begin(), step.arguments.end());
+  words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
   ::posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  ::posix_spawnattr_setpgroup(&attributes, 0);
   ::setenv("QT_QPA_PLATFORM", "offscreen", 0);  // it asks for a display even where it shows nothing
   pid_t process = 0;
-  const int problem = ::posix_spawnp(&process, "colmap", &actions, nullptr, pointers.data(), environ);
+  const int problem = ::posix_spawnp(&process, "colmap", &actions, &attributes, pointers.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
+  ::posix_spawnattr_destroy(&attributes);
   if (problem == ENOENT)
     return failure(ErrorKind::kInput,
                    "colmap is not installed; install it (Debian: apt install colmap), or give photographs with known "
                    "cameras to quorum reconstruct");
   if (problem != 0) return failure(ErrorKind::kInput, fmt::format("colmap can't be started (error {})", problem));
   int status = 0;
-  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  while (true) {
+    const pid_t ended = ::waitpid(process, &status, WNOHANG);
+    if (ended == process || (ended < 0 && errno != EINTR)) return status;
+    if (progress.stop_requested()) {
+      end_group(process);
+      return std::unexpected(stopped_between_steps());
+    }
+    ::usleep(20'000);
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  return failure(ErrorKind::kInput, fmt::format("colmap {} failed; see {}", step.arguments[0], log.string()));
 }
 
-std::vector<Step> steps_for(const fs::path& photos, const fs::path& work, int max_image_size) {
+/// Of the names that a switch has in different versions of colmap the one that the installed one's help lists; none
+/// where it lists none.
+Expected<std::string> installed_name(const std::string& command, std::initializer_list<const char*> names,
+                                     const fs::path& work, const Progress& progress) {
+  const fs::path help = work / (command + ".help");
+  QUORUM_TRY(call({command, "-h"}, help, progress));
+  QUORUM_ASSIGN(const auto text, read_file(help));
+  for (std::string name : names)
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+      const char next = at + name.size() < text.size() ? text[at + name.size()] : ' ';
+      if (next == ' ' || next == '\n' || next == '=' || next == '\t' || next == '\r') return name;
+    }
+  return std::string();
+}
+
+/// The arguments that keep a command off the GPU.
+Expected<std::vector<std::string>> without_gpu(const std::string& command, std::initializer_list<const char*> names,
+                                               const fs::path& work, const Progress& progress) {
+  QUORUM_ASSIGN(const auto name, installed_name(command, names, work, progress));
+  return name.empty() ? std::vector<std::string>() : std::vector<std::string>{name, "0"};
+}
+
+/// The folder as only one run may use it. A colmap inherits the lock, so one that a killed run left keeps it.
+Expected<void> lock(const fs::path& work) {
+  const int descriptor = ::open((work / "lock").c_str(), O_RDWR | O_CREAT, 0666);
+  if (descriptor < 0)
+    return failure(ErrorKind::kInput, fmt::format("{}: cannot be written; check the permissions", work.string()));
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return {};  // until the process and its children end
+  ::close(descriptor);
+  return failure(ErrorKind::kInput, fmt::format("{}: another quorum photos, or a colmap that it left, works here; wait "
+                                                "for it, end it, or choose another output folder",
+                                                work.string()));
+}
+
+/// Runs a step.
+Expected<void> run_step(const Step& step, const fs::path& photos, const fs::path& work, int max_image_size,
+                        const Progress& progress) {
   const std::string database = (work / "database.db").string();
-  std::vector<std::string> undistort = {"image_undistorter",
-                                        "--image_path",
-                                        photos.string(),
-                                        "--input_path",
-                                        (work / "sparse/0").string(),
-                                        "--output_path",
-                                        (work / "dense").string(),
-                                        "--output_type",
-                                        "COLMAP"};
-  if (max_image_size > 0) undistort.insert(undistort.end(), {"--max_image_size", std::to_string(max_image_size)});
-  return {{"features",
-           {"feature_extractor", "--database_path", database, "--image_path", photos.string(),
-            "--SiftExtraction.use_gpu", "0"}},
-          {"matches", {"exhaustive_matcher", "--database_path", database, "--SiftMatching.use_gpu", "0"}},
-          {"cameras",
-           {"mapper", "--database_path", database, "--image_path", photos.string(), "--output_path",
-            (work / "sparse").string()}},
-          {"undistorted", std::move(undistort)}};
+  const fs::path sparse = work / "sparse";
+  std::error_code ignored;
+  std::vector<std::string> arguments = {step.command};
+  const auto add = [&arguments](std::vector<std::string> more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+  };
+  if (step.name == "features") {
+    fs::remove(work / "database.db", ignored);
+    QUORUM_ASSIGN(const auto off, without_gpu(step.command, {"--FeatureExtraction.use_gpu", "--SiftExtraction.use_gpu"},
+                                              work, progress));
+    add({"--database_path", database, "--image_path", photos.string()});
+    add(off);
+  } else if (step.name == "matches") {
+    QUORUM_ASSIGN(const auto off,
+                  without_gpu(step.command, {"--FeatureMatching.use_gpu", "--SiftMatching.use_gpu"}, work, progress));
+    add({"--database_path", database});
+    add(off);
+  } else if (step.name == "cameras") {
+    fs::remove_all(sparse, ignored);
+    QUORUM_TRY(make_folder(sparse));
+    add({"--database_path", database, "--image_path", photos.string(), "--output_path", sparse.string()});
+  } else {
+    const auto models = list_colmap_models(work);
+    if (models.empty())
+      return failure(ErrorKind::kInput, fmt::format("{}: holds no model; remove {} and run again", sparse.string(),
+                                                    (work / "cameras.done").string()));
+    fs::remove_all(work / "dense", ignored);
+    add({"--image_path", photos.string(), "--input_path", models.front().path.string(), "--output_path",
+         (work / "dense").string(), "--output_type", "COLMAP"});
+    if (max_image_size > 0) add({"--max_image_size", std::to_string(max_image_size)});
+  }
+  const fs::path log = work / (step.name + ".log");
+  QUORUM_ASSIGN(const int status, call(arguments, log, progress));
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+  return failure(ErrorKind::kInput, fmt::format("colmap {} failed; see {}", step.command, log.string()));
+}
+
+/// Says how many photographs have cameras now.
+Expected<void> tell_registered(const fs::path& work, std::size_t photograph_count, Progress& progress) {
+  const auto models = list_colmap_models(work);
+  if (models.empty())
+    return failure(ErrorKind::kInput, "colmap found no cameras: the photographs share too little; take more of them");
+  const std::string of_several =
+      models.size() > 1 ? fmt::format(", in the largest of {} models that share nothing", models.size()) : "";
+  progress.note(
+      fmt::format("{} of {} photographs registered{}", models.front().image_count, photograph_count, of_several));
+  return {};
 }
 
 }  // namespace
 
 Expected<void> run_colmap(const fs::path& photos, const fs::path& work, int max_image_size, Progress& progress) {
-  const auto lines = describe(photos);
-  if (!lines) return std::unexpected(lines.error());
+  std::error_code ignored;
+  const fs::path inside = fs::weakly_canonical(work, ignored).lexically_relative(fs::weakly_canonical(photos, ignored));
+  if (!inside.empty() && *inside.begin() != "..")
+    return failure(ErrorKind::kInput, fmt::format("{}: lies in the folder of photographs, where colmap would take its "
+                                                  "pictures for photographs; choose another output folder",
+                                                  work.string()));
+  QUORUM_ASSIGN(const auto lines, describe(photos));
   std::string input = fmt::format("size {}\n", max_image_size);
-  for (const std::string& line : *lines) input += line + "\n";
-  if (auto made = make_folder(work / "sparse"); !made) return made;
-  const std::vector<Step> steps = steps_for(photos, work, max_image_size);
-  progress.stage("finding cameras", static_cast<int>(steps.size()));
+  for (const std::string& line : lines) input += line + "\n";
+  QUORUM_TRY(make_folder(work));
+  QUORUM_TRY(lock(work));
+  const Step steps[] = {{"features", "feature_extractor"},
+                        {"matches", "exhaustive_matcher"},
+                        {"cameras", "mapper"},
+                        {"undistorted", "image_undistorter"}};
+  progress.stage("finding cameras", static_cast<int>(std::size(steps)));
   bool stale = false;
   for (const Step& step : steps) {
-    if (progress.stop_requested()) return failure(ErrorKind::kStopped, "stopped as asked; finished steps are kept");
+    if (progress.stop_requested()) return std::unexpected(stopped_between_steps());
     const fs::path note = work / (step.name + ".done");
     const auto done_for = read_file(note);
     stale = stale || !done_for || *done_for != input;
     if (stale) {
-      std::error_code ignored;
       fs::remove(note, ignored);
-      if (step.name == "features") fs::remove(work / "database.db", ignored);
-      if (auto called = call(step, work / (step.name + ".log")); !called) return called;
-      if (step.name == "cameras" && !fs::exists(work / "sparse/0", ignored))
-        return failure(ErrorKind::kInput,
-                       "colmap found no cameras: the photographs share too little; take more of them");
-      if (auto written = write_file(note, input); !written) return written;
+      QUORUM_TRY(run_step(step, photos, work, max_image_size, progress));
     }
+    if (step.name == "cameras") QUORUM_TRY(tell_registered(work, lines.size(), progress));
+    if (stale) QUORUM_TRY(write_file(note, input));
     progress.step();
   }
   return {};

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds Quorum twice and runs all tests: with address and undefined-behavior sanitizers, then optimized. Software Vulkan
-# (lavapipe) stands in where there is no GPU; a test that finds no device fails.
+# Builds Quorum twice, checks the sources and runs the tests: with address and undefined-behavior sanitizers, then
+# all of them optimized. Software Vulkan (lavapipe) stands in where there is no GPU; a test that finds no device fails.
 #   bash tools/test.sh
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
@@ -16,6 +16,7 @@ done
 export QUORUM_REQUIRE_DEVICE=1
 export UBSAN_OPTIONS="print_stacktrace=1"
 failed=0
+bash tools/check.sh || failed=1
 for preset in debug release; do
   echo
   echo "Tests of the $preset build"

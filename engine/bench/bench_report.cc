@@ -5,6 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
+
+#include "engine/core/host_rates.h"
+#include "engine/core/memory.h"
+#include "engine/core/version.h"
+#include "engine/pipeline/reconstruct.h"
 
 namespace quorum {
 namespace {
@@ -35,7 +42,7 @@ struct Totals {
   double images = 0.0;  // pixels read by the sweeps: reference and neighbors
 };
 
-Totals total(const Scene& scene, const ReconstructOptions& options, const RunReport& report) {
+Totals total(const Scene& scene, const RunOptions& options, const RunReport& report) {
   Totals sum;
   for (const ViewReport& view : report.views) {
     const auto neighbors = static_cast<double>(view.neighbors.size());
@@ -69,7 +76,7 @@ double limit(double operations, double bytes, const DeviceRates& rates) {
 
 }  // namespace
 
-std::vector<Cost> bench_costs(const Scene& scene, const ReconstructOptions& options, const RunReport& report,
+std::vector<Cost> bench_costs(const Scene& scene, const RunOptions& options, const RunReport& report,
                               const DeviceRates& device, const DeviceRates& host) {
   const Totals sum = total(scene, options, report);
   const auto blocks = static_cast<double>(report.blocks);
@@ -119,6 +126,50 @@ std::vector<Cost> bench_costs(const Scene& scene, const ReconstructOptions& opti
       kVoxelBytes * kBlockVoxels * blocks + 28.0 * static_cast<double>(report.extracted_triangles),
       "1024 operations and 10240 bytes a block, 28 bytes a triangle and its half vertex", host);
   return costs;
+}
+
+double seconds_outside_kernels(const RunReport& report, bool on_host) {
+  double seconds = report.cpu_seconds;
+  if (on_host)
+    for (const StageTime& kernel : report.kernels) seconds -= kernel.seconds;
+  return std::max(seconds, 0.0);
+}
+
+namespace {
+
+std::uint64_t bytes_in(const std::filesystem::path& folder) {
+  std::uint64_t bytes = 0;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, ignored))
+    if (entry.is_regular_file(ignored)) bytes += entry.file_size(ignored);
+  return bytes;
+}
+
+}  // namespace
+
+Expected<BenchReport> bench_run(Run& run, const std::string& name) {
+  QUORUM_TRY(reconstruct(run));
+  BenchReport bench;
+  bench.peak_memory_bytes = peak_memory_bytes();
+  bench.bytes_written = bytes_in(run.workspace.folder());
+  run.progress.stage("measuring the machine", 1);
+  QUORUM_ASSIGN(bench.rates, run.backend.measure_rates());
+  const HostRates host = measure_host_rates();
+  run.progress.step();
+  bench.version = version();
+  bench.device = run.report.device;
+  bench.scene = name;
+  bench.views = static_cast<int>(run.scene.views.size());
+  bench.width = run.scene.views[0].width;
+  bench.height = run.scene.views[0].height;
+  bench.wall_seconds = run.report.wall_seconds;
+  bench.cpu_seconds = run.report.cpu_seconds;
+  bench.stages = run.report.stages;
+  bench.host_seconds = seconds_outside_kernels(run.report, run.backend.runs_on_host());
+  bench.megapixels = total(run.scene, run.options, run.report).pixels * 1e-6;
+  bench.costs = bench_costs(run.scene, run.options, run.report, bench.rates,
+                            {host.operations_per_second / host.threads, host.bytes_per_second / host.threads});
+  return bench;
 }
 
 }  // namespace quorum

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/pipeline/reconstruct.h"
+#include "engine/pipeline/run.h"
 
 namespace quorum {
 
@@ -34,14 +34,26 @@ struct BenchReport {
   DeviceRates rates;
   std::vector<Cost> costs;
   std::vector<StageReport> stages;
-  double wall_seconds = 0.0;  ///< from the first photograph to the mesh
-  double cpu_seconds = 0.0;   ///< of the process meanwhile
+  double wall_seconds = 0.0;        ///< from the first photograph to the mesh
+  double cpu_seconds = 0.0;         ///< of the process meanwhile
+  double host_seconds = 0.0;        ///< of the CPU, outside kernels
+  double megapixels = 0.0;          ///< of the views with a depth map
+  std::uint64_t bytes_written = 0;  ///< of the files that the run left
   std::uint64_t peak_memory_bytes = 0;
+
+  [[nodiscard]] double host_seconds_per_megapixel() const { return megapixels > 0 ? host_seconds / megapixels : 0.0; }
 };
 
-/// The costs of a whole run (depth maps and fusion) from its report. device: what kernels can do; host: what one thread
+/// The costs of a whole run (depth maps and fusion) that was done. device: what kernels can do; host: what one thread
 /// of the CPU can do, for the stages that always run there.
-std::vector<Cost> bench_costs(const Scene& scene, const ReconstructOptions& options, const RunReport& report,
+std::vector<Cost> bench_costs(const Scene& scene, const RunOptions& options, const RunReport& report,
                               const DeviceRates& device, const DeviceRates& host);
+
+/// CPU seconds of a run outside kernels. on_host: kernel times are CPU seconds, too.
+double seconds_outside_kernels(const RunReport& report, bool on_host);
+
+/// The whole run, then the rates of the machine: these take memory that is not the run's. name: of the scene. Fails as
+/// reconstruct() and measure_rates() do.
+Expected<BenchReport> bench_run(Run& run, const std::string& name);
 
 }  // namespace quorum

@@ -55,6 +55,9 @@ BenchReport from_json(const Json& json) {
     report.stages.push_back({stage.at("name"), stage.at("wall_seconds"), stage.at("cpu_seconds")});
   report.wall_seconds = json.at("wall_seconds");
   report.cpu_seconds = json.at("cpu_seconds");
+  report.host_seconds = json.value("host_seconds", 0.0);  // older reports have not counted this and what follows
+  report.megapixels = json.value("megapixels", 0.0);
+  report.bytes_written = json.value("bytes_written", std::uint64_t{0});
   report.peak_memory_bytes = json.at("peak_memory_bytes");
   return report;
 }
@@ -89,15 +92,18 @@ std::string bench_json(const BenchReport& report) {
       {"stages", stages},
       {"wall_seconds", report.wall_seconds},
       {"cpu_seconds", report.cpu_seconds},
+      {"host_seconds", report.host_seconds},
+      {"megapixels", report.megapixels},
+      {"host_seconds_per_megapixel", report.host_seconds_per_megapixel()},
+      {"bytes_written", report.bytes_written},
       {"peak_memory_bytes", report.peak_memory_bytes}};
   return all.dump(2) + "\n";
 }
 
 Expected<BenchReport> read_bench(const std::filesystem::path& path) {
-  const auto text = read_file(path);
-  if (!text) return std::unexpected(text.error());
+  QUORUM_ASSIGN(const auto text, read_file(path));
   try {
-    return from_json(Json::parse(*text));
+    return from_json(Json::parse(text));
   } catch (const Json::exception&) {
     return failure(
         ErrorKind::kInput,
@@ -130,6 +136,9 @@ std::string bench_table(const BenchReport& report) {
     fmt::format_to(out, "{:<18} {:>10.3f} {:>10.3f} {:>7.1f}\n", stage.name, stage.wall_seconds, stage.cpu_seconds,
                    100.0 * stage.cpu_seconds / report.cpu_seconds);
   fmt::format_to(out, "{:<18} {:>10.3f} {:>10.3f}\n", "whole run", report.wall_seconds, report.cpu_seconds);
+  fmt::format_to(out, "outside kernels    {:>10.3f} CPU s a megapixel of {:.1f}\n", report.host_seconds_per_megapixel(),
+                 report.megapixels);
+  fmt::format_to(out, "files              {:>10.1f} MiB\n", static_cast<double>(report.bytes_written) / kMebibyte);
   fmt::format_to(out, "peak memory        {:>10.0f} MiB\n", static_cast<double>(report.peak_memory_bytes) / kMebibyte);
   return text;
 }
@@ -156,6 +165,11 @@ std::string compare_table(const BenchReport& before, const BenchReport& after) {
   }
   row("whole run, wall s", before.wall_seconds, after.wall_seconds);
   row("whole run, CPU s", before.cpu_seconds, after.cpu_seconds);
+  if (before.megapixels > 0) {  // older reports have not counted these
+    row("outside kernels, CPU s a megapixel", before.host_seconds_per_megapixel(), after.host_seconds_per_megapixel());
+    row("files, MiB", static_cast<double>(before.bytes_written) / kMebibyte,
+        static_cast<double>(after.bytes_written) / kMebibyte);
+  }
   row("peak memory, MiB", static_cast<double>(before.peak_memory_bytes) / kMebibyte,
       static_cast<double>(after.peak_memory_bytes) / kMebibyte);
   return text;

@@ -37,3 +37,22 @@ inline std::unexpected<Error> failure(ErrorKind kind, std::string message) {
 }
 
 }  // namespace quorum
+
+#define QUORUM_JOIN_(a, b) a##b
+#define QUORUM_JOIN(a, b) QUORUM_JOIN_(a, b)
+#define QUORUM_ASSIGN_(result, declaration, ...)       \
+  auto result = (__VA_ARGS__);                         \
+  if (!result) [[unlikely]]                            \
+    return std::unexpected(std::move(result).error()); \
+  declaration = *std::move(result)
+
+/// Declares the value of an Expected, or returns its failure from the enclosing function:
+///   QUORUM_ASSIGN(const auto text, read_file(path));
+#define QUORUM_ASSIGN(declaration, ...) QUORUM_ASSIGN_(QUORUM_JOIN(expected_, __COUNTER__), declaration, __VA_ARGS__)
+
+/// Returns the failure of an Expected, if it is one, from the enclosing function: QUORUM_TRY(write_file(path, text));
+#define QUORUM_TRY(...)                                \
+  do {                                                 \
+    if (auto done = (__VA_ARGS__); !done) [[unlikely]] \
+      return std::unexpected(std::move(done).error()); \
+  } while (false)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/core/clock.h"
+#include "engine/core/simd.h"
 
 namespace quorum {
 namespace {
@@ -19,10 +20,7 @@ constexpr int kRounds = 1 << 18;  // some milliseconds
 constexpr int kRepeats = 5;       // the best counts: what else the machine does only slows down
 
 /// kLanes · kRounds multiplications and as many additions.
-#ifdef __x86_64__
-[[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
-#endif
-void multiply_and_add(std::uint32_t* values) {
+[[gnu::always_inline]] inline void multiply_and_add(std::uint32_t* values) {
   std::uint32_t lane[kLanes];
   std::copy_n(values, kLanes, lane);
   const std::uint32_t factor = values[0] | 1U;
@@ -52,8 +50,9 @@ HostRates measure_host_rates() {
   const auto threads = static_cast<std::size_t>(rates.threads);
 
   std::vector<std::uint32_t> values(threads * kLanes, 3U);
+  const auto compute = simd_form<multiply_and_add>(best_simd_level());
   const double arithmetic = best_seconds(
-      rates.threads, [&](int thread) { multiply_and_add(values.data() + static_cast<std::size_t>(thread) * kLanes); });
+      rates.threads, [&](int thread) { compute(values.data() + static_cast<std::size_t>(thread) * kLanes); });
   rates.operations_per_second = 2.0 * kLanes * kRounds * rates.threads / arithmetic;
 
   std::vector<std::vector<char>> source(threads, std::vector<char>(kBytes, 1));

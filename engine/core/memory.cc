@@ -31,11 +31,19 @@ std::uint64_t available_on_machine() {
 
 }  // namespace
 
-std::uint64_t peak_memory_bytes() {
+namespace {
+
+std::uint64_t peak_of(int whom) {
   rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+  getrusage(whom, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
+
+}  // namespace
+
+std::uint64_t peak_memory_bytes() { return peak_of(RUSAGE_SELF); }
+
+std::uint64_t children_peak_memory_bytes() { return peak_of(RUSAGE_CHILDREN); }
 
 std::uint64_t resident_bytes() {
   std::ifstream file("/proc/self/statm");

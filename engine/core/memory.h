@@ -8,6 +8,9 @@ namespace quorum {
 /// Largest memory that this process has held so far, bytes.
 std::uint64_t peak_memory_bytes();
 
+/// The same of the largest of the programs that this process started and that have ended; 0 if there are none.
+std::uint64_t children_peak_memory_bytes();
+
 /// Memory that this process holds now, bytes; 0 if the system does not tell.
 std::uint64_t resident_bytes();
 

@@ -26,7 +26,9 @@ struct DepthPlanes {
 /// Planes that cover the bounds as seen from scene.views[reference], within the view's depth range if it has one.
 /// With options.depth_step the depths of the first pass are that far apart, as in the paper (4.1). Automatic: equally
 /// spaced in inverse depth, so that the projection of a point in the bounds moves by at most options.step_pixels in
-/// any of the neighbors from one plane of the first pass to the next.
+/// any of the neighbors from one plane of the first pass to the next; if the view does not show the whole box, along
+/// its own rays where the neighbor shows them. In a view whose camera stands in the bounds the planes begin where two
+/// neighbors see what it sees.
 /// Fails (kUsage) if that makes more than 65,535 planes, (kInput) if no part of the bounds is before the camera.
 Expected<DepthPlanes> make_depth_planes(const Scene& scene, int reference, const std::vector<int>& neighbors,
                                         const SweepOptions& options);

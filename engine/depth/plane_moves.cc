@@ -26,12 +26,14 @@ std::vector<std::vector<PlaneMove>> plane_rounds(const DepthPlanes& planes, int 
   return rounds;
 }
 
-Grid<InverseDepthRange> inverse_depth_ranges(const Grid<PlaneRange>& ranges, const DepthPlanes& planes) {
-  Grid<InverseDepthRange> result(ranges.width, ranges.height, {1.0F, 0.0F});
-  for (std::size_t pixel = 0; pixel < ranges.values.size(); ++pixel) {
-    const PlaneRange& range = ranges.values[pixel];
+Grid<InverseDepthRange> inverse_depth_ranges(const SweepTask& task) {
+  const std::vector<float>& inverse_depth = task.planes.inverse_depth;
+  const bool ends = task.outside.values.empty();
+  Grid<InverseDepthRange> result(task.ranges.width, task.ranges.height, {1.0F, 0.0F});
+  for (std::size_t pixel = 0; pixel < task.ranges.values.size(); ++pixel) {
+    const PlaneRange& range = task.ranges.values[pixel];
     if (range.first <= range.last)
-      result.values[pixel] = {planes.inverse_depth[range.last], planes.inverse_depth[range.first]};
+      result.values[pixel] = {ends ? inverse_depth[range.last] : 0.0F, inverse_depth[range.first]};
   }
   return result;
 }

@@ -1,4 +1,4 @@
-// Which planes a pixel tries, and which it may take. Twins: shaders/lib/plane_moves.glsl.
+// Which planes a pixel tries, and which it may take. Twin: shaders/lib/plane_moves.glsl.
 #pragma once
 
 #include <cmath>
@@ -6,7 +6,8 @@
 
 #include "engine/camera/camera.h"
 #include "engine/core/grid.h"
-#include "engine/depth/depth_planes.h"
+#include "engine/depth/sweep_task.h"
+#include "engine/depth/vote.h"
 #include "shaders/layout.h"
 
 namespace quorum {
@@ -20,8 +21,8 @@ constexpr PixelPlane kNoPlane{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0};
 /// pixel's own is not tried: the steps search there. window: side, pixels.
 std::vector<std::vector<PlaneMove>> plane_rounds(const DepthPlanes& planes, int window);
 
-/// Where the planes of a pixel may cross its ray.
-Grid<InverseDepthRange> inverse_depth_ranges(const Grid<PlaneRange>& ranges, const DepthPlanes& planes);
+/// Where the planes of a pixel may cross its ray: in the bounds, and up to infinity if task.outside is not empty.
+Grid<InverseDepthRange> inverse_depth_ranges(const SweepTask& task);
 
 /// The steepest slope that a plane may have, as a share of its inverse depth: 80 degrees between the plane and the
 /// image.
@@ -52,6 +53,25 @@ float max_plane_tilt(const Camera& camera);
   const float limit = max_tilt * plane.inverse_depth;
   return plane.inverse_depth >= range.farthest && plane.inverse_depth <= range.nearest && plane.slope_x >= -limit &&
          plane.slope_x <= limit && plane.slope_y >= -limit && plane.slope_y <= limit;
+}
+
+/// False if a plane can no longer exceed the least confidence with the votes, whatever the neighbors that are left say.
+/// With none left: true if it does. The margin keeps rounding out of it.
+[[gnu::always_inline]] inline bool can_win(float ncc_sum, int votes, int left, float least_confidence,
+                                           const VoteRule& rule) {
+  constexpr float kMargin = 1e-5F;
+  const float most = confidence_of(ncc_sum + static_cast<float>(left), votes + left, rule);
+  return (votes + left >= rule.min_votes) & (most + (left > 0 ? kMargin : 0.0F) > least_confidence);
+}
+
+/// The plane that a pixel takes from a trial that won. move: number of the one that made it.
+[[gnu::always_inline]] inline PixelPlane taken_plane(const PlaneTrial& trial, const VoteRule& rule, int move) {
+  return {trial.inverse_depth,
+          trial.slope_x,
+          trial.slope_y,
+          trial.ncc_sum * reciprocal(static_cast<float>(trial.votes)),
+          confidence_of(trial.ncc_sum, trial.votes, rule),
+          move};
 }
 
 }  // namespace quorum

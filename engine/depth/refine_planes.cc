@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "engine/core/clock.h"
-#include "engine/depth/fit_planes.h"
+#include "engine/depth/outside_planes.h"
 #include "engine/depth/score_planes.h"
 #include "engine/depth/support_windows.h"
 #include "engine/depth/sweep_tile.h"
@@ -29,10 +29,10 @@ struct Refinement {
 };
 
 /// Scores a batch that the move with this number made, and takes the winners.
-void take_winners(int move, PlaneBatch& batch, Refinement& refinement) {
+void take_winners(const TileSupports& supports, int move, PlaneBatch& batch, Refinement& refinement) {
   std::uint64_t samples = 0;
   refinement.trials += static_cast<std::uint64_t>(batch.count);
-  score_planes(refinement.scorer, batch, samples);
+  score_planes(refinement.scorer, supports, batch, samples);
   refinement.samples += samples;
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
     const PlaneTrial trial{batch.inverse_depth[i], batch.slope_x[i], batch.slope_y[i], batch.ncc_sum[i],
@@ -44,7 +44,7 @@ void take_winners(int move, PlaneBatch& batch, Refinement& refinement) {
 
 /// Tries the plane that trial(x, y) gives at every pixel of a tile that may take it. move: its number.
 template <typename Trial>
-void try_planes(const Tile& tile, int move, const Trial& trial, Refinement& refinement) {
+void try_planes(const Tile& tile, const TileSupports& supports, int move, const Trial& trial, Refinement& refinement) {
   thread_local const auto batch = std::make_unique<PlaneBatch>();
   for (int y = tile.y; y < tile.y_end; ++y) {
     for (int x = tile.x; x < tile.x_end; ++x) {
@@ -53,21 +53,37 @@ void try_planes(const Tile& tile, int move, const Trial& trial, Refinement& refi
       const PlaneTrial plane = trial(x, y);
       if (plane.inverse_depth == 0.0F || !may_take(plane, range, refinement.task.max_tilt)) continue;
       batch->add(x, y, plane, refinement.best.at(x, y).confidence);
-      if (batch->full()) take_winners(move, *batch, refinement);
+      if (batch->full()) take_winners(supports, move, *batch, refinement);
     }
   }
-  take_winners(move, *batch, refinement);
+  take_winners(supports, move, *batch, refinement);
 }
 
+bool has_rays(const Refinement& refinement, const Tile& tile) {
+  for (int y = tile.y; y < tile.y_end; ++y)
+    for (int x = tile.x; x < tile.x_end; ++x)
+      if (const InverseDepthRange& range = refinement.ranges.at(x, y); range.farthest <= range.nearest) return true;
+  return false;
+}
+
+/// work(tile, supports) for all tiles in which planes may be tried.
 template <typename Work>
-void for_each_tile(int width, int height, const CpuSweepOptions& cpu, const Work& work) {
+void for_each_tile(const Refinement& refinement, const CpuSweepOptions& cpu, const Work& work) {
+  const int width = refinement.ranges.width;
+  const int height = refinement.ranges.height;
   const int columns = (width + cpu.tile_width - 1) / cpu.tile_width;
   const int rows = (height + cpu.tile_height - 1) / cpu.tile_height;
   tbb::parallel_for(tbb::blocked_range2d<int>(0, rows, 1, 0, columns, 1), [&](const auto& part) {
-    for (int row = part.rows().begin(); row < part.rows().end(); ++row)
-      for (int column = part.cols().begin(); column < part.cols().end(); ++column)
-        work(Tile{column * cpu.tile_width, row * cpu.tile_height, std::min((column + 1) * cpu.tile_width, width),
-                  std::min((row + 1) * cpu.tile_height, height)});
+    thread_local TileSupports supports;
+    for (int row = part.rows().begin(); row < part.rows().end(); ++row) {
+      for (int column = part.cols().begin(); column < part.cols().end(); ++column) {
+        const Tile tile{column * cpu.tile_width, row * cpu.tile_height, std::min((column + 1) * cpu.tile_width, width),
+                        std::min((row + 1) * cpu.tile_height, height)};
+        if (!has_rays(refinement, tile)) continue;
+        supports.pack(refinement.task, refinement.scorer.windows, tile, cpu.simd);
+        work(tile, supports);
+      }
+    }
   });
 }
 
@@ -100,20 +116,17 @@ Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& fir
   const int width = first_pass.width;
   const int height = first_pass.height;
   const Grid<SupportWindow> windows =
-      make_support_windows(*task.reference, task.options.window, task.options.support_tolerance);
-  Refinement refinement{task,
-                        {task, windows, make_vote_rule(task.options, task.neighbor_count()), cpu.simd},
-                        inverse_depth_ranges(task.ranges, task.planes),
-                        Grid<PixelPlane>(width, height, kNoPlane),
-                        Grid<PixelPlane>(width, height, kNoPlane)};
-  const Grid<PlaneTrial> fitted = fit_planes(first_pass, task.planes);
-  for_each_tile(width, height, cpu, [&](const Tile& tile) {
+      make_support_windows(*task.reference, task.options.window, task.options.support_tolerance, cpu.simd);
+  Refinement refinement{task, make_plane_scorer(task, windows, cpu.simd), inverse_depth_ranges(task),
+                        Grid<PixelPlane>(width, height, kNoPlane), Grid<PixelPlane>(width, height, kNoPlane)};
+  const Grid<PlaneTrial> fitted = first_planes(task, first_pass);
+  for_each_tile(refinement, cpu, [&](const Tile& tile, const TileSupports& supports) {
     try_planes(
-        tile, 1, [&](int x, int y) { return fitted.at(x, y); }, refinement);
+        tile, supports, 1, [&](int x, int y) { return fitted.at(x, y); }, refinement);
   });
   end_round(refinement);
   for (const std::vector<PlaneMove>& round : plane_rounds(task.planes, task.options.window)) {
-    for_each_tile(width, height, cpu, [&](const Tile& tile) {
+    for_each_tile(refinement, cpu, [&](const Tile& tile, const TileSupports& supports) {
       int number = 0;
       for (const PlaneMove& move : round) {
         const auto trial = [&](int x, int y) {
@@ -122,7 +135,7 @@ Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& fir
           const bool inside = refinement.last.contains(other_x, other_y);
           return move_plane(move, refinement.best.at(x, y), inside ? refinement.last.at(other_x, other_y) : kNoPlane);
         };
-        try_planes(tile, ++number, trial, refinement);
+        try_planes(tile, supports, ++number, trial, refinement);
       }
     });
     end_round(refinement);
@@ -135,19 +148,20 @@ Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& fir
   return std::move(refinement.best);
 }
 
-DepthMap depth_map_from_planes(const Grid<PixelPlane>& planes, const Eigen::Matrix3d& intrinsics) {
+DepthMap depth_map_from_planes(const Grid<PixelPlane>& planes, const SweepTask& task) {
   DepthMap map{Grid<float>(planes.width, planes.height), Grid<float>(planes.width, planes.height),
                Grid<float>(planes.width, planes.height),
                Grid<Eigen::Vector3f>(planes.width, planes.height, Eigen::Vector3f::Zero())};
   for (std::size_t pixel = 0; pixel < planes.values.size(); ++pixel) {
     const PixelPlane& plane = planes.values[pixel];
     if (plane.inverse_depth == 0.0F) continue;
+    if (plane.inverse_depth < task.planes.inverse_depth[task.ranges.values[pixel].last]) continue;  // beyond the bounds
     map.depth.values[pixel] = reciprocal(plane.inverse_depth);
     map.correlation.values[pixel] = plane.correlation;
     map.confidence.values[pixel] = std::min(plane.confidence, 1.0F);
     const auto width = static_cast<std::size_t>(planes.width);
     map.normal.values[pixel] =
-        plane_normal(plane, static_cast<double>(pixel % width), static_cast<double>(pixel / width), intrinsics);
+        plane_normal(plane, static_cast<double>(pixel % width), static_cast<double>(pixel / width), task.intrinsics);
   }
   return map;
 }

@@ -16,7 +16,7 @@ namespace quorum {
 Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& first_pass, const CpuSweepOptions& cpu,
                                PassWork* work = nullptr);
 
-/// The depth map that the planes say, with normals. intrinsics: of the reference view.
-DepthMap depth_map_from_planes(const Grid<PixelPlane>& planes, const Eigen::Matrix3d& intrinsics);
+/// The depth map that the planes of a task say, with normals. No depth where a plane lies beyond the bounds.
+DepthMap depth_map_from_planes(const Grid<PixelPlane>& planes, const SweepTask& task);
 
 }  // namespace quorum

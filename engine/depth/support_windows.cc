@@ -6,47 +6,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
-#include "engine/core/exact.h"
+#include "engine/depth/reference_windows.h"
 
 namespace quorum {
 namespace {
 
 constexpr int kMaxWindow = 15;
 
-std::int32_t apart(std::uint32_t a, std::uint32_t b) {
-  return std::abs(static_cast<std::int32_t>(a) - static_cast<std::int32_t>(b));
-}
-
-std::int32_t largest_difference(Rgba a, Rgba b) {
-  return std::max(std::max(apart(red_of(a), red_of(b)), apart(green_of(a), green_of(b))),
-                  apart(blue_of(a), blue_of(b)));
-}
-
-std::int32_t sample_of(std::uint32_t channel, int shift) {
-  return static_cast<std::int32_t>((channel << 16) >> shift) - (1 << (23 - shift));
-}
-
-/// Sums over the pixels of a window that belong to its support.
-struct Sums {
-  std::int32_t sum[3] = {0, 0, 0};
-  std::int32_t squares = 0;
-  std::int32_t samples = 0;
-};
-
-SupportWindow support_of(const Sums& sums, std::int32_t max_difference) {
-  SupportWindow support{};
-  double variance = static_cast<double>(sums.samples) * sums.squares;
-  for (int channel = 0; channel < 3; ++channel) {
-    support.sum[channel] = sums.sum[channel];
-    variance -= static_cast<double>(sums.sum[channel]) * sums.sum[channel];
-  }
-  support.inverse_deviation = reciprocal_sqrt(float_from_integer(variance));
-  support.samples = sums.samples;
-  support.max_difference = max_difference;
-  return support;
+SupportWindow support_of(const ReferenceSums& sums, std::int32_t samples, std::int32_t max_difference) {
+  const ReferenceWindow window = window_from_sums(sums, samples);
+  return {{window.sum[0], window.sum[1], window.sum[2]}, window.inverse_deviation, samples, max_difference};
 }
 
 /// The fewest samples of a support: 9 of 25.
@@ -65,19 +36,15 @@ SupportWindow least_support(const PaddedImage& image, int x, int y, int window, 
   std::array<std::int32_t, kMaxWindow* kMaxWindow> sorted = difference;
   const auto last = sorted.begin() + least_samples(window) - 1;
   std::nth_element(sorted.begin(), last, sorted.begin() + static_cast<std::ptrdiff_t>(count));
-  Sums sums;
+  ReferenceSums sums;
+  std::int32_t samples = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (difference[i] > *last) continue;
     const Rgba color = image.at(x + static_cast<int>(i) % window - radius, y + static_cast<int>(i) / window - radius);
-    const std::uint32_t channels[3] = {red_of(color), green_of(color), blue_of(color)};
-    for (int channel = 0; channel < 3; ++channel) {
-      const std::int32_t sample = sample_of(channels[channel], shift);
-      sums.sum[channel] += sample;
-      sums.squares += sample * sample;
-    }
-    ++sums.samples;
+    add_sample(sums, sample_pixel(color, shift));
+    ++samples;
   }
-  return support_of(sums, *last);
+  return support_of(sums, samples, *last);
 }
 
 /// Sums of the windows around the pixels of a row, each as an array, for the compiler to vectorize.
@@ -88,7 +55,8 @@ struct RowSums {
 };
 
 /// Sums over the pixels that differ from their window's center by at most the tolerance.
-void sum_row(const PaddedImage& image, int y, int window, int tolerance, int shift, RowSums& row) {
+[[gnu::always_inline]] inline void sum_row(const PaddedImage& image, int y, int window, int tolerance, int shift,
+                                           RowSums& row) {
   const int radius = window / 2;
   const auto count = static_cast<std::size_t>(image.width - 2 * radius);  // first pixel: radius
   for (auto* values : {&row.sum[0], &row.sum[1], &row.sum[2], &row.squares, &row.samples}) values->assign(count, 0);
@@ -98,13 +66,12 @@ void sum_row(const PaddedImage& image, int y, int window, int tolerance, int shi
       const Rgba* pixel = center + std::ptrdiff_t{dy} * image.stride() + dx;
       for (std::size_t i = 0; i < count; ++i) {
         const std::int32_t belongs = (largest_difference(pixel[i], center[i]) - tolerance - 1) >> 31;
-        const std::int32_t red = sample_of(red_of(pixel[i]), shift) & belongs;
-        const std::int32_t green = sample_of(green_of(pixel[i]), shift) & belongs;
-        const std::int32_t blue = sample_of(blue_of(pixel[i]), shift) & belongs;
-        row.sum[0][i] += red;
-        row.sum[1][i] += green;
-        row.sum[2][i] += blue;
-        row.squares[i] += red * red + green * green + blue * blue;
+        const Sample sample = sample_pixel(pixel[i], shift);
+        const Sample kept{sample.red & belongs, sample.green & belongs, sample.blue & belongs};
+        row.sum[0][i] += kept.red;
+        row.sum[1][i] += kept.green;
+        row.sum[2][i] += kept.blue;
+        row.squares[i] += product(kept, kept);
         row.samples[i] -= belongs;
       }
     }
@@ -113,19 +80,19 @@ void sum_row(const PaddedImage& image, int y, int window, int tolerance, int shi
 
 }  // namespace
 
-Grid<SupportWindow> make_support_windows(const PaddedImage& image, int window, int tolerance) {
+Grid<SupportWindow> make_support_windows(const PaddedImage& image, int window, int tolerance, SimdLevel simd) {
   const int radius = window / 2;
   const int shift = kSampleShift + extra_sample_shift(window);
   Grid<SupportWindow> windows(image.width, image.height);
   if (image.width < window) return windows;
   tbb::parallel_for(radius, std::max(image.height - radius, radius), [&](int y) {
     thread_local RowSums row;
-    sum_row(image, y, window, tolerance, shift, row);
+    simd_form<sum_row>(simd)(image, y, window, tolerance, shift, row);
     for (std::size_t i = 0; i < row.samples.size(); ++i) {
       const int x = radius + static_cast<int>(i);
       windows.at(x, y) =
           row.samples[i] >= least_samples(window)
-              ? support_of({{row.sum[0][i], row.sum[1][i], row.sum[2][i]}, row.squares[i], row.samples[i]}, tolerance)
+              ? support_of({{row.sum[0][i], row.sum[1][i], row.sum[2][i]}, row.squares[i]}, row.samples[i], tolerance)
               : least_support(image, x, y, window, shift);
     }
   });

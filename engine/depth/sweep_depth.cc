@@ -8,12 +8,13 @@
 
 #include "engine/core/check.h"
 #include "engine/core/clock.h"
-#include "engine/depth/plane_warp.h"
+#include "engine/depth/ncc_from_sums.h"
+#include "engine/depth/project.h"
+#include "engine/depth/reference_windows.h"
 #include "engine/depth/refine_depth.h"
 #include "engine/depth/refine_planes.h"
 #include "engine/depth/sweep_tile.h"
 #include "engine/depth/vote_depth.h"
-#include "engine/depth/window_ncc.h"
 
 namespace quorum {
 
@@ -22,17 +23,17 @@ float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane) {
   const PlaneWarp& warp = task.warps[static_cast<std::size_t>(neighbor)];
   const float inverse_depth = task.planes.inverse_depth[static_cast<std::size_t>(plane)];
   const int radius = task.options.window / 2;
-  const int shift = extra_sample_shift(task.options.window);
+  const int extra_shift = extra_sample_shift(task.options.window);
   const bool axis = task.options.window_model == WindowModel::kAxis;
-  const Projection center = project(warp, x, y, inverse_depth, image.width, image.height);
+  const Projection center = project(warp, x, y, inverse_depth, image.width, image.height, 0);
 
   const auto position = [&](int dx, int dy) {
-    if (!axis) return project(warp, x + dx, y + dy, inverse_depth, image.width, image.height);
+    if (!axis) return project(warp, x + dx, y + dy, inverse_depth, image.width, image.height, 0);
     const int u = center.u + dx * kPositionScale;
     const int v = center.v + dy * kPositionScale;
     const bool inside = center.inside && u >= 0 && v >= 0 && u <= (image.width - 1) * kPositionScale &&
                         v <= (image.height - 1) * kPositionScale;
-    return inside ? Projection{u, v, true} : Projection{};
+    return inside ? Projection{u, v, 1} : Projection{};
   };
   // A plane maps the window to a convex quadrilateral, so the corners decide for all of it. A sample that rounding puts
   // 1/256 pixel outside all the same is read at the image's first pixel, on every device.
@@ -40,22 +41,25 @@ float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane) {
     for (const int dx : {-radius, radius})
       if (!position(dx, dy).inside) return kNoNcc;
 
+  ReferenceSums reference;
   WindowSums sums;
   for (int dy = -radius; dy <= radius; ++dy) {
     for (int dx = -radius; dx <= radius; ++dx) {
       const Projection at = position(dx, dy);
-      add_sample(sums, sample_bilinear(*task.reference, (x + dx) * kPositionScale, (y + dy) * kPositionScale, shift),
-                 sample_bilinear(image, at.u, at.v, shift));
+      const Sample a = sample_pixel(task.reference->at(x + dx, y + dy), kSampleShift + extra_shift);
+      add_sample(reference, a);
+      add_sample(sums, a, sample_bilinear(image, at.u, at.v, extra_shift));
     }
   }
-  return ncc_from_sums(sums, task.options.window * task.options.window);
+  const int samples = task.options.window * task.options.window;
+  return ncc_from_sums(window_from_sums(reference, samples), sums, samples);
 }
 
 Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& ranges, int stride,
                              const CpuSweepOptions& cpu, PassWork* work) {
   QUORUM_CHECK_EQ(ranges.width, task.reference->width);
   const double cpu_start = foreground_cpu_seconds();
-  const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
+  const TileSweep sweep = make_tile_sweep(task, cpu.simd);
   const int window = task.options.window;
   std::atomic<std::uint64_t> tests = 0;
   std::atomic<std::uint64_t> samples = 0;
@@ -71,7 +75,7 @@ Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& rang
                         std::min((row + 1) * cpu.tile_height, ranges.height)};
         tile_planes.collect(ranges, tile, stride, window);
         if (tile_planes.planes().empty()) continue;
-        sweep_tile(task, ranges, tile, tile_planes.planes(), rule, cpu.simd, votes);
+        sweep_tile(sweep, ranges, tile, tile_planes.planes(), votes);
         const bool shared = task.options.window_model != WindowModel::kAxis;
         tests += tile_planes.tests();
         samples += shared ? tile_planes.samples(window) : tile_planes.tests() * static_cast<uint>(window * window);
@@ -93,7 +97,7 @@ DepthMap sweep_depth(const SweepTask& task, const CpuSweepOptions& cpu, SweepWor
   if (task.options.window_model == WindowModel::kSlanted) {
     const Grid<PixelPlane> planes = refine_planes(task, votes, cpu, &done.refine);
     if (work != nullptr) *work = done;
-    return depth_map_from_planes(planes, task.intrinsics);
+    return depth_map_from_planes(planes, task);
   }
   if (task.planes.refinement > 1) votes = sweep_planes(task, refine_ranges(votes, task.planes), 1, cpu, &done.refine);
   if (work != nullptr) *work = done;

@@ -13,9 +13,6 @@ namespace quorum {
 /// equal.
 float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane);
 
-/// Below every threshold: the neighbor does not see the window.
-constexpr float kNoNcc = -1.0F;
-
 /// How the CPU does its work; none of it changes a byte of the result.
 struct CpuSweepOptions {
   SimdLevel simd = best_simd_level();

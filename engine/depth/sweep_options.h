@@ -3,8 +3,6 @@
 // docs/quality.md.
 #pragma once
 
-#include "engine/core/error.h"
-
 namespace quorum {
 
 /// What a window in the neighbor looks like.
@@ -14,13 +12,12 @@ enum class WindowModel {
   kAxis,     ///< the paper's: as many pixels, axis-aligned, around the projection
 };
 
-/// "slanted", "plane" or "axis".
-const char* window_model_name(WindowModel model);
-
 struct SweepOptions {
   int window = 5;            ///< side of the window, pixels, odd, 3..15 (paper 4.2)
   float threshold = 0.5F;    ///< NCC above which a neighbor votes for a depth, 0..0.99; the paper: 0.6 (4.1)
   int min_votes = 2;         ///< votes that make a depth valid, 1..32 (paper 2.1)
+  bool outside = true;       ///< slanted windows may prefer a plane beyond the bounds; such pixels have no depth
+  bool half_size = true;     ///< images of half the size give slanted windows a depth where full ones find none
   double depth_step = 0.0;   ///< distance of depth samples, scene units (the paper's 2.5 mm); 0 = automatic
   double step_pixels = 0.0;  ///< automatic step: largest motion of the projection in a neighbor, pixels, 0.05..8;
                              ///< 0 = automatic: 2 if planes are refined after the first pass, else 1
@@ -30,10 +27,10 @@ struct SweepOptions {
   int support_tolerance = 15;  ///< of slanted windows, see make_support_windows(), 0..255; 255 = whole windows
 
   /// The step that step_pixels asks for.
-  [[nodiscard]] double automatic_step_pixels() const;
-
-  /// Names the first option that is out of its range, and the range. kUsage.
-  [[nodiscard]] Expected<void> check() const;
+  [[nodiscard]] double automatic_step_pixels() const {
+    if (step_pixels > 0.0) return step_pixels;
+    return window_model == WindowModel::kSlanted ? 2.0 : 1.0;
+  }
 };
 
 }  // namespace quorum

@@ -12,6 +12,15 @@
 
 namespace quorum {
 
+/// The small images of the coarse sweep beyond the bounds (outside_planes.h) are halved this often.
+constexpr int kOutsideHalvings = 2;
+
+/// A plane beyond the bounds that faces the camera. inverse_depth 0 = none.
+struct OutsidePlane {
+  float inverse_depth = 0.0F;  ///< 1 / scene units
+  float correlation = 0.0F;    ///< of the small images
+};
+
 /// neighbors and warps are of equal length, 2 or more, in the order of view selection (which fixes the order of float
 /// sums). ranges has the size of the reference image.
 struct SweepTask {
@@ -22,7 +31,9 @@ struct SweepTask {
   Grid<PlaneRange> ranges;
   SweepOptions options;
   Eigen::Matrix3d intrinsics = Eigen::Matrix3d::Identity();  ///< of the reference view
-  float max_tilt = 0.0F;                                     ///< of slanted windows, see max_plane_tilt()
+  Grid<OutsidePlane> outside = {};  ///< of a small image's pixels; empty = no pixel may prefer what lies outside
+  int outside_halvings = kOutsideHalvings;  ///< of the task's images, to become that one
+  float max_tilt = 0.0F;                    ///< of slanted windows, see max_plane_tilt()
 
   [[nodiscard]] int neighbor_count() const { return static_cast<int>(neighbors.size()); }
 };

@@ -2,26 +2,34 @@
 // other; each row's samples and products are summed along the row over the window's width, and these sums down the
 // column by adding the new row and taking off the one that left the window. Windows along the image axes share no
 // samples, but all samples of one lie at the same fractions of a pixel: a row of windows is summed sample by sample.
-// All loops run along a row over plain arrays, so that the compiler vectorizes them; the whole is compiled for three
-// instruction sets and chosen at run time.
+// All loops run along a row over plain arrays, so that the compiler vectorizes them; the whole is compiled for each
+// SIMD level.
 #include "engine/depth/sweep_tile.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <memory>
 
-#include "engine/core/check.h"
-#include "engine/core/exact.h"
-#include "engine/depth/window_ncc.h"
+#include "engine/depth/ncc_from_sums.h"
+#include "engine/depth/project.h"
+#include "engine/depth/reference_windows.h"
+#include "engine/depth/sum_windows.h"
 
 namespace quorum {
 namespace {
 
-constexpr int kMaxBorder = 14;                           // 2 * radius of the largest window
-constexpr int kColumns = kMaxTileSide + kMaxBorder + 2;  // 80: whole vectors
+constexpr int kMaxBorder = 14;  // 2 * radius of the largest window
 constexpr int kRows = kMaxTileSide + kMaxBorder;
 constexpr int kMaxWindow = 15;
+
+// Loops take whole vectors, so that none of their work is done one by one: what lies beyond a row's end is computed,
+// too, somewhere in the image, and not looked at. So arrays are one vector longer.
+constexpr int kVector = 16;
+constexpr int whole_vectors(int count) { return (count + kVector - 1) / kVector * kVector; }
+constexpr int kWindows = kMaxTileSide + kVector;                              // of a row
+constexpr int kColumns = whole_vectors(kMaxTileSide + kMaxBorder) + kVector;  // samples of a row
 
 /// Samples of one row, and what is summed of them: channels of b, b·b, a·b.
 enum Quantity { kRed, kGreen, kBlue, kSquares, kProducts, kQuantities };
@@ -29,23 +37,24 @@ enum Quantity { kRed, kGreen, kBlue, kSquares, kProducts, kQuantities };
 /// Everything a thread needs to sweep a tile; arrays of the tile's reference part first, of the current row after.
 struct Workspace {
   std::int32_t reference[3][kRows][kColumns];  // samples of the tile and its border
-  std::int32_t reference_sum[3][kMaxTileSide][kMaxTileSide];
-  float inverse_deviation[kMaxTileSide][kMaxTileSide];  // 1 / sqrt(n² variance) of each reference window
-  float ncc_sum[kMaxTileSide][kMaxTileSide];
-  std::int32_t votes[kMaxTileSide][kMaxTileSide];
+  std::uint64_t packed[kRows][kColumns];       // the same, 16 bits a channel
+  std::int32_t reference_sum[3][kMaxTileSide][kWindows];
+  float inverse_deviation[kMaxTileSide][kWindows];  // 1 / sqrt(n² variance) of each reference window
+  float ncc_sum[kMaxTileSide][kWindows];
+  std::int32_t votes[kMaxTileSide][kWindows];
 
-  std::int32_t texel_index[kColumns];
-  std::int32_t fraction_x[kColumns];
-  std::int32_t fraction_y[kColumns];
-  std::uint32_t texel[4][kColumns];      // upper left, upper right, lower left, lower right
-  std::int32_t inside[kRows][kColumns];  // -1 inside the neighbor image, 0 outside
+  std::int32_t u[kColumns];  // 1/256 pixel
+  std::int32_t v[kColumns];
+  std::int32_t texel_index[kColumns];             // of the first of four
+  std::uint64_t top[kColumns], bottom[kColumns];  // two texels side by side
+  std::int32_t inside[kRows][kColumns];           // -1 inside the neighbor image, 0 outside
   std::int32_t sample[kQuantities][kColumns];
-  std::int32_t row_sum[kMaxWindow + 1][kQuantities][kMaxTileSide];  // of the rows in the window, in turn
-  std::int32_t window_sum[kQuantities][kMaxTileSide];
+  std::int32_t row_sum[kMaxWindow + 1][kQuantities][kWindows];  // of the rows in the window, in turn
+  std::int32_t window_sum[kQuantities][kWindows];
 
   // Of windows along the axes.
   std::uint32_t window_texel[(kMaxWindow + 1) * (kMaxWindow + 1)][kMaxTileSide];
-  std::uint32_t along_red_blue[2][kMaxTileSide];  // of the row before and this one, interpolated along x
+  std::uint32_t along_red_blue[2][kMaxTileSide];  // AlongX of the row before and this one
   std::uint32_t along_green[2][kMaxTileSide];
 };
 
@@ -56,39 +65,31 @@ struct Part {
 };
 
 /// Positions of one row of samples in the neighbor. x, y: reference pixel of the first. Inside are those that keep a
-/// margin (1/256 pixel) to the border of the image. Same operations as project().
+/// margin (1/256 pixel) to the border of the image.
 [[gnu::always_inline]] inline void warp_row(const PlaneWarp& warp, float inverse_depth, const PaddedImage& image, int x,
                                             int y, int count, int margin, std::int32_t* inside, Workspace& work) {
-  const float* m = warp.rotation;
-  const float fy = static_cast<float>(y);
-  const float base_x = m[1] * fy + (m[2] + warp.offset[0] * inverse_depth);
-  const float base_y = m[4] * fy + (m[5] + warp.offset[1] * inverse_depth);
-  const float base_z = m[7] * fy + (m[8] + warp.offset[2] * inverse_depth);
-  const float m0 = m[0];
-  const float m3 = m[3];
-  const float m6 = m[6];
-  const float least = static_cast<float>(margin);
-  const float limit_u = static_cast<float>((image.width - 1) * kPositionScale + 1 - margin);
-  const float limit_v = static_cast<float>((image.height - 1) * kPositionScale + 1 - margin);
+  const PlaneWarp row_warp = warp;  // a copy, so that what a row shares is computed once
+  const int width = image.width;
+  const int height = image.height;
   const int stride = image.stride();
   for (int i = 0; i < count; ++i) {
-    const float fx = static_cast<float>(x + i);
-    const float px = m0 * fx + base_x;
-    const float py = m3 * fx + base_y;
-    const float pz = m6 * fx + base_z;
-    const bool before = pz > kMinDepthRatio;
-    const float inverse_z = reciprocal(before ? pz : 1.0F);
-    const float u = (px * inverse_z) * static_cast<float>(kPositionScale) + 0.5F;
-    const float v = (py * inverse_z) * static_cast<float>(kPositionScale) + 0.5F;
-    const bool in = before & (u >= least) & (v >= least) & (u < limit_u) & (v < limit_v);
-    const int iu = static_cast<int>(in ? u : 0.0F);
-    const int iv = static_cast<int>(in ? v : 0.0F);
-    inside[i] = in ? -1 : 0;
-    work.fraction_x[i] = iu & (kPositionScale - 1);
-    work.fraction_y[i] = iv & (kPositionScale - 1);
-    work.texel_index[i] = (iv >> kPositionBits) * stride + (iu >> kPositionBits);
+    const Projection at = project(row_warp, x + i, y, inverse_depth, width, height, margin);
+    inside[i] = -at.inside;
+    work.u[i] = at.u;
+    work.v[i] = at.v;
+    work.texel_index[i] = texel_index(at.u, at.v, stride);
   }
 }
+
+/// Two texels side by side, and each of them.
+[[gnu::always_inline]] inline std::uint64_t texel_pair(const Rgba* left) {
+  std::uint64_t pair;
+  std::memcpy(&pair, left, sizeof(pair));
+  return pair;
+}
+constexpr int kLeftShift = std::endian::native == std::endian::little ? 0 : 32;
+[[gnu::always_inline]] inline Rgba left_of(std::uint64_t pair) { return static_cast<Rgba>(pair >> kLeftShift); }
+[[gnu::always_inline]] inline Rgba right_of(std::uint64_t pair) { return static_cast<Rgba>(pair >> (32 - kLeftShift)); }
 
 /// Reads the four texels of each sample. Scalar on purpose: gathers are no faster, and far slower on some processors.
 [[gnu::always_inline]] inline void read_texels(const PaddedImage& image, int count, Workspace& work) {
@@ -96,10 +97,8 @@ struct Part {
   const std::ptrdiff_t stride = image.stride();
   for (int i = 0; i < count; ++i) {
     const Rgba* texel = pixels + work.texel_index[i];
-    work.texel[0][i] = texel[0];
-    work.texel[1][i] = texel[1];
-    work.texel[2][i] = texel[stride];
-    work.texel[3][i] = texel[stride + 1];
+    work.top[i] = texel_pair(texel);
+    work.bottom[i] = texel_pair(texel + stride);
   }
 }
 
@@ -109,14 +108,13 @@ struct Part {
   const std::int32_t* a_green = work.reference[1][row] + column;
   const std::int32_t* a_blue = work.reference[2][row] + column;
   for (int i = 0; i < count; ++i) {
-    const Sample b = interpolate_texels(work.texel[0][i], work.texel[1][i], work.texel[2][i], work.texel[3][i],
-                                        static_cast<std::uint32_t>(work.fraction_x[i]),
-                                        static_cast<std::uint32_t>(work.fraction_y[i]), shift);
+    const Sample b = sample_bilinear(left_of(work.top[i]), right_of(work.top[i]), left_of(work.bottom[i]),
+                                     right_of(work.bottom[i]), work.u[i], work.v[i], shift);
     work.sample[kRed][i] = b.red;
     work.sample[kGreen][i] = b.green;
     work.sample[kBlue][i] = b.blue;
-    work.sample[kSquares][i] = b.red * b.red + b.green * b.green + b.blue * b.blue;
-    work.sample[kProducts][i] = a_red[i] * b.red + a_green[i] * b.green + a_blue[i] * b.blue;
+    work.sample[kSquares][i] = product(b, b);
+    work.sample[kProducts][i] = product({a_red[i], a_green[i], a_blue[i]}, b);
   }
 }
 
@@ -132,12 +130,11 @@ template <int kWindow>
 }
 
 /// NCC of a row of windows from their sums, and the votes that follow. corner: flags of the windows' four corners, not
-/// 0 where the neighbor sees it. Same operations as ncc_from_sums().
+/// 0 where the neighbor sees it.
 template <int kWindow>
 [[gnu::always_inline]] inline void vote_row(int tile_x, int tile_y, int count,
                                             const std::array<const std::int32_t*, 4>& corner, float threshold,
                                             Workspace& work) {
-  constexpr double kSamples = kWindow * kWindow;
   const std::int32_t* a_red = work.reference_sum[0][tile_y] + tile_x;
   const std::int32_t* a_green = work.reference_sum[1][tile_y] + tile_x;
   const std::int32_t* a_blue = work.reference_sum[2][tile_y] + tile_x;
@@ -149,15 +146,11 @@ template <int kWindow>
   const std::int32_t* lower_left = corner[2];
   const std::int32_t* lower_right = corner[3];
   for (int i = 0; i < count; ++i) {
-    const double red = work.window_sum[kRed][i];
-    const double green = work.window_sum[kGreen][i];
-    const double blue = work.window_sum[kBlue][i];
-    const float covariance = float_from_integer(kSamples * work.window_sum[kProducts][i] -
-                                                (a_red[i] * red + a_green[i] * green + a_blue[i] * blue));
-    const float variance =
-        float_from_integer(kSamples * work.window_sum[kSquares][i] - (red * red + green * green + blue * blue));
-    float ncc = (covariance * inverse_deviation[i]) * reciprocal_sqrt(variance);
-    ncc = ncc < 1.0F ? ncc : 1.0F;
+    const ReferenceWindow window{{a_red[i], a_green[i], a_blue[i]}, inverse_deviation[i]};
+    const WindowSums sums{{work.window_sum[kRed][i], work.window_sum[kGreen][i], work.window_sum[kBlue][i]},
+                          work.window_sum[kSquares][i],
+                          work.window_sum[kProducts][i]};
+    const float ncc = ncc_from_sums(window, sums, kWindow * kWindow);
     const std::int32_t seen = upper_left[i] & upper_right[i] & lower_left[i] & lower_right[i];
     const bool hit = (ncc > threshold) & (seen != 0);
     ncc_sum[i] += hit ? ncc : 0.0F;
@@ -165,29 +158,53 @@ template <int kWindow>
   }
 }
 
+/// A neighbor, and how rows of it are sampled: by the sampler, if there is one.
+struct Neighbor {
+  const PlaneWarp& warp;
+  const PaddedImage& image;
+  const TexelColumns* columns;
+  RowSampler sampler;
+};
+
+/// Samples of a row at the positions in work. row, column: of the tile's reference part.
+[[gnu::always_inline]] inline void sample_row(const Neighbor& neighbor, int row, int column, int samples, int shift,
+                                              Workspace& work) {
+  const int whole_samples = whole_vectors(samples);
+  if (neighbor.sampler != nullptr) {
+    neighbor.sampler(
+        *neighbor.columns, {work.u, work.v, work.texel_index}, work.packed[row] + column, whole_samples, shift,
+        {work.sample[kRed], work.sample[kGreen], work.sample[kBlue], work.sample[kSquares], work.sample[kProducts]});
+    return;
+  }
+  read_texels(neighbor.image, samples, work);
+  interpolate_row(row, column, whole_samples, shift, work);
+}
+
 /// Adds the votes of one neighbor on one plane.
 template <int kWindow>
-[[gnu::always_inline]] inline void sweep_part(const PlaneWarp& warp, const PaddedImage& image, float inverse_depth,
-                                              const Part& part, int shift, float threshold, Workspace& work) {
+[[gnu::always_inline]] inline void sweep_part(const Neighbor& neighbor, float inverse_depth, const Part& part,
+                                              int shift, float threshold, Workspace& work) {
   constexpr int kRadius = kWindow / 2;
   const int samples = part.count_x + kWindow - 1;
-  for (auto& sums : work.window_sum) std::fill_n(sums, part.count_x, 0);
+  const int whole_samples = whole_vectors(samples);
+  const int windows = whole_vectors(part.count_x);
+  for (auto& sums : work.window_sum) std::fill_n(sums, windows, 0);
   for (int row = 0; row < part.count_y + kWindow - 1; ++row) {
     std::int32_t* inside = work.inside[row];
-    warp_row(warp, inverse_depth, image, part.x - kRadius, part.y - kRadius + row, samples, 0, inside, work);
-    read_texels(image, samples, work);
-    interpolate_row(part.tile_y + row, part.tile_x, samples, shift, work);
+    warp_row(neighbor.warp, inverse_depth, neighbor.image, part.x - kRadius, part.y - kRadius + row, whole_samples, 0,
+             inside, work);
+    sample_row(neighbor, part.tile_y + row, part.tile_x, samples, shift, work);
     auto& entering = work.row_sum[row % (kWindow + 1)];
     const auto& leaving = work.row_sum[(row + 1) % (kWindow + 1)];  // kWindow rows back
     for (int quantity = 0; quantity < kQuantities; ++quantity) {
-      sum_along_row<kWindow>(work.sample[quantity], part.count_x, entering[quantity]);
+      sum_along_row<kWindow>(work.sample[quantity], windows, entering[quantity]);
       std::int32_t* sum = work.window_sum[quantity];
       const bool full = row >= kWindow;
-      for (int i = 0; i < part.count_x; ++i) sum[i] += entering[quantity][i] - (full ? leaving[quantity][i] : 0);
+      for (int i = 0; i < windows; ++i) sum[i] += entering[quantity][i] - (full ? leaving[quantity][i] : 0);
     }
     if (row < kWindow - 1) continue;
     const std::int32_t* top = work.inside[row - (kWindow - 1)];
-    vote_row<kWindow>(part.tile_x, part.tile_y + row - (kWindow - 1), part.count_x,
+    vote_row<kWindow>(part.tile_x, part.tile_y + row - (kWindow - 1), windows,
                       {top, top + kWindow - 1, inside, inside + kWindow - 1}, threshold, work);
   }
 }
@@ -197,10 +214,8 @@ template <int kWindow>
 template <int kWindow>
 [[gnu::always_inline]] inline void sum_axis_windows(const PaddedImage& image, const std::int32_t* inside, int tile_x,
                                                     int tile_y, int count, int shift, Workspace& work) {
-  constexpr std::uint32_t kRedBlue = 0x00ff00ffU;
   constexpr int kRadius = kWindow / 2;
   constexpr int kTexels = kWindow + 1;  // along a side
-  const std::int32_t center = 1 << (23 - shift);
   const std::ptrdiff_t stride = image.stride();
   for (int i = 0; i < count; ++i) {
     const std::ptrdiff_t first = inside[i] != 0 ? work.texel_index[i] - kRadius * stride - kRadius : 0;
@@ -217,10 +232,9 @@ template <int kWindow>
       std::uint32_t* red_blue = work.along_red_blue[row % 2];
       std::uint32_t* green = work.along_green[row % 2];
       for (int i = 0; i < count; ++i) {
-        const auto fraction = static_cast<std::uint32_t>(work.fraction_x[i]);
-        const std::uint32_t left_red_blue = left[i] & kRedBlue;
-        red_blue[i] = (left_red_blue << 8) + ((right[i] & kRedBlue) - left_red_blue) * fraction;
-        green[i] = (green_of(left[i]) << 8) + (green_of(right[i]) - green_of(left[i])) * fraction;
+        const AlongX along = interpolate_along_x(left[i], right[i], work.u[i]);
+        red_blue[i] = along.red_blue;
+        green[i] = along.green;
       }
       if (row == 0) continue;
       const std::uint32_t* red_blue_above = work.along_red_blue[(row + 1) % 2];
@@ -229,18 +243,14 @@ template <int kWindow>
       const std::int32_t* a_green = work.reference[1][tile_y + row - 1] + tile_x + column;
       const std::int32_t* a_blue = work.reference[2][tile_y + row - 1] + tile_x + column;
       for (int i = 0; i < count; ++i) {
-        const auto along_y = [&](std::uint32_t top, std::uint32_t bottom) {
-          const auto fraction = static_cast<std::uint32_t>(work.fraction_y[i]);
-          return static_cast<std::int32_t>(((top << 8) + (bottom - top) * fraction) >> shift) - center;
-        };
-        const std::int32_t b_red = along_y(red_blue_above[i] & 0xffffU, red_blue[i] & 0xffffU);
-        const std::int32_t b_green = along_y(green_above[i], green[i]);
-        const std::int32_t b_blue = along_y(red_blue_above[i] >> 16, red_blue[i] >> 16);
-        work.window_sum[kRed][i] += b_red;
-        work.window_sum[kGreen][i] += b_green;
-        work.window_sum[kBlue][i] += b_blue;
-        work.window_sum[kSquares][i] += b_red * b_red + b_green * b_green + b_blue * b_blue;
-        work.window_sum[kProducts][i] += a_red[i] * b_red + a_green[i] * b_green + a_blue[i] * b_blue;
+        const Sample a{a_red[i], a_green[i], a_blue[i]};
+        const Sample b =
+            interpolate_along_y({red_blue_above[i], green_above[i]}, {red_blue[i], green[i]}, work.v[i], shift);
+        work.window_sum[kRed][i] += b.red;
+        work.window_sum[kGreen][i] += b.green;
+        work.window_sum[kBlue][i] += b.blue;
+        work.window_sum[kSquares][i] += product(b, b);
+        work.window_sum[kProducts][i] += product(a, b);
       }
     }
   }
@@ -276,51 +286,41 @@ template <int kWindow>
 [[gnu::always_inline]] inline void prepare_reference(const PaddedImage& image, const Tile& tile, int shift,
                                                      Workspace& work) {
   constexpr int kRadius = kWindow / 2;
-  constexpr double kSamples = kWindow * kWindow;
   const int count_x = tile.x_end - tile.x;
   const int count_y = tile.y_end - tile.y;
-  const std::int32_t center = 1 << (23 - shift);
   for (int row = 0; row < count_y + kWindow - 1; ++row) {
     const int y = std::clamp(tile.y - kRadius + row, 0, image.height - 1);
     for (int column = 0; column < count_x + kWindow - 1; ++column) {
-      const Rgba pixel = image.at(std::clamp(tile.x - kRadius + column, 0, image.width - 1), y);
-      const auto sample = [&](std::uint32_t value) {
-        return static_cast<std::int32_t>((value << 16) >> shift) - center;
-      };
-      work.reference[0][row][column] = sample(red_of(pixel));
-      work.reference[1][row][column] = sample(green_of(pixel));
-      work.reference[2][row][column] = sample(blue_of(pixel));
+      const int x = std::clamp(tile.x - kRadius + column, 0, image.width - 1);
+      const Sample sample = sample_pixel(image.at(x, y), shift);
+      work.reference[0][row][column] = sample.red;
+      work.reference[1][row][column] = sample.green;
+      work.reference[2][row][column] = sample.blue;
+      const auto word = [](std::int32_t value) { return std::uint64_t{static_cast<std::uint16_t>(value)}; };
+      work.packed[row][column] = word(sample.red) | word(sample.green) << 16 | word(sample.blue) << 32;
     }
   }
   for (int y = 0; y < count_y; ++y) {
     for (int x = 0; x < count_x; ++x) {
-      std::int32_t sum[3] = {};
-      std::int32_t squares = 0;
-      for (int dy = 0; dy < kWindow; ++dy) {
-        for (int dx = 0; dx < kWindow; ++dx) {
-          for (int channel = 0; channel < 3; ++channel) {
-            const std::int32_t value = work.reference[channel][y + dy][x + dx];
-            sum[channel] += value;
-            squares += value * value;
-          }
-        }
-      }
-      double variance = kSamples * squares;
-      double product = 0.0;
-      for (int channel = 0; channel < 3; ++channel) {
-        work.reference_sum[channel][y][x] = sum[channel];
-        product += static_cast<double>(sum[channel]) * sum[channel];
-      }
-      variance -= product;
-      work.inverse_deviation[y][x] = reciprocal_sqrt(float_from_integer(variance));
+      ReferenceSums sums;
+      for (int dy = 0; dy < kWindow; ++dy)
+        for (int dx = 0; dx < kWindow; ++dx)
+          add_sample(sums, {work.reference[0][y + dy][x + dx], work.reference[1][y + dy][x + dx],
+                            work.reference[2][y + dy][x + dx]});
+      const ReferenceWindow window = window_from_sums(sums, kWindow * kWindow);
+      for (int channel = 0; channel < 3; ++channel) work.reference_sum[channel][y][x] = window.sum[channel];
+      work.inverse_deviation[y][x] = window.inverse_deviation;
     }
   }
 }
 
 template <int kWindow>
-[[gnu::always_inline]] inline void sweep_tile_body(const SweepTask& task, const Grid<PlaneRange>& ranges,
+[[gnu::always_inline]] inline void sweep_tile_body(const TileSweep& sweep, const Grid<PlaneRange>& ranges,
                                                    const Tile& tile, const std::vector<TilePlane>& planes,
-                                                   const VoteRule& rule, Grid<PixelVote>& votes, Workspace& work) {
+                                                   Grid<PixelVote>& votes, Workspace& work) {
+  const SweepTask& task = sweep.task;
+  const VoteRule rule = sweep.rule;
+  const RowSampler sampler = sweep.neighbors.empty() ? nullptr : row_sampler(sweep.simd);
   const int shift = kSampleShift + extra_sample_shift(kWindow);
   prepare_reference<kWindow>(*task.reference, tile, shift, work);
   for (const auto& [plane, at] : planes) {
@@ -333,8 +333,9 @@ template <int kWindow>
     for (std::size_t neighbor = 0; neighbor < task.neighbors.size(); ++neighbor) {
       const PlaneWarp& warp = task.warps[neighbor];
       const PaddedImage& image = *task.neighbors[neighbor];
+      const TexelColumns* columns = sampler != nullptr ? &sweep.neighbors[neighbor] : nullptr;
       if (task.options.window_model != WindowModel::kAxis)
-        sweep_part<kWindow>(warp, image, inverse_depth, part, shift, rule.threshold, work);
+        sweep_part<kWindow>({warp, image, columns, sampler}, inverse_depth, part, shift, rule.threshold, work);
       else
         sweep_axis_part<kWindow>(warp, image, inverse_depth, static_cast<uint>(plane), ranges, part, shift,
                                  rule.threshold, work);
@@ -352,68 +353,38 @@ template <int kWindow>
   }
 }
 
-using TileFunction = void (*)(const SweepTask&, const Grid<PlaneRange>&, const Tile&, const std::vector<TilePlane>&,
-                              const VoteRule&, Grid<PixelVote>&, Workspace&);
-
-template <int kWindow>
-void sweep_tile_baseline(const SweepTask& task, const Grid<PlaneRange>& ranges, const Tile& tile,
-                         const std::vector<TilePlane>& planes, const VoteRule& rule, Grid<PixelVote>& votes,
-                         Workspace& work) {
-  sweep_tile_body<kWindow>(task, ranges, tile, planes, rule, votes, work);
-}
-
-#ifdef __x86_64__
-template <int kWindow>
-[[gnu::target("arch=x86-64-v3")]] void sweep_tile_avx2(const SweepTask& task, const Grid<PlaneRange>& ranges,
-                                                       const Tile& tile, const std::vector<TilePlane>& planes,
-                                                       const VoteRule& rule, Grid<PixelVote>& votes, Workspace& work) {
-  sweep_tile_body<kWindow>(task, ranges, tile, planes, rule, votes, work);
-}
-
-template <int kWindow>
-[[gnu::target("arch=x86-64-v4,prefer-vector-width=512")]] void sweep_tile_avx512(
-    const SweepTask& task, const Grid<PlaneRange>& ranges, const Tile& tile, const std::vector<TilePlane>& planes,
-    const VoteRule& rule, Grid<PixelVote>& votes, Workspace& work) {
-  sweep_tile_body<kWindow>(task, ranges, tile, planes, rule, votes, work);
-}
-#endif
-
-template <int kWindow>
-TileFunction choose_tile_function(SimdLevel simd) {
-#ifdef __x86_64__
-  if (simd == SimdLevel::kAvx512) return sweep_tile_avx512<kWindow>;
-  if (simd == SimdLevel::kAvx2) return sweep_tile_avx2<kWindow>;
-#endif
-  static_cast<void>(simd);
-  return sweep_tile_baseline<kWindow>;
-}
-
-TileFunction choose_tile_function(int window, SimdLevel simd) {
+auto choose_form(int window, SimdLevel simd) {
   switch (window) {
     case 3:
-      return choose_tile_function<3>(simd);
+      return simd_form<sweep_tile_body<3>>(simd);
     case 5:
-      return choose_tile_function<5>(simd);
+      return simd_form<sweep_tile_body<5>>(simd);
     case 7:
-      return choose_tile_function<7>(simd);
+      return simd_form<sweep_tile_body<7>>(simd);
     case 9:
-      return choose_tile_function<9>(simd);
+      return simd_form<sweep_tile_body<9>>(simd);
     case 11:
-      return choose_tile_function<11>(simd);
+      return simd_form<sweep_tile_body<11>>(simd);
     case 13:
-      return choose_tile_function<13>(simd);
+      return simd_form<sweep_tile_body<13>>(simd);
     default:
-      return choose_tile_function<15>(simd);
+      return simd_form<sweep_tile_body<15>>(simd);
   }
 }
 
 }  // namespace
 
-void sweep_tile(const SweepTask& task, const Grid<PlaneRange>& ranges, const Tile& tile,
-                const std::vector<TilePlane>& planes, const VoteRule& rule, SimdLevel simd, Grid<PixelVote>& votes) {
-  QUORUM_CHECK_LE(static_cast<int>(simd), static_cast<int>(best_simd_level()));
+TileSweep make_tile_sweep(const SweepTask& task, SimdLevel simd) {
+  TileSweep sweep{task, make_vote_rule(task.options, task.neighbor_count()), simd, {}};
+  if (row_sampler(simd) == nullptr || task.options.window_model == WindowModel::kAxis) return sweep;
+  for (const auto& neighbor : task.neighbors) sweep.neighbors.push_back(make_texel_columns(*neighbor));
+  return sweep;
+}
+
+void sweep_tile(const TileSweep& sweep, const Grid<PlaneRange>& ranges, const Tile& tile,
+                const std::vector<TilePlane>& planes, Grid<PixelVote>& votes) {
   thread_local const auto work = std::make_unique<Workspace>();
-  choose_tile_function(task.options.window, simd)(task, ranges, tile, planes, rule, votes, *work);
+  choose_form(sweep.task.options.window, sweep.simd)(sweep, ranges, tile, planes, votes, *work);
 }
 
 }  // namespace quorum

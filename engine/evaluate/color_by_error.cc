@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/core/option.h"
 #include "engine/evaluate/distance.h"
 
 namespace quorum {
@@ -28,7 +29,8 @@ Rgba error_color(double share) {
 
 Expected<Mesh> color_by_error(Mesh mesh, const Mesh& truth, double full_error) {
   if (!(std::isfinite(full_error) && full_error > 0))
-    return failure(ErrorKind::kUsage, fmt::format("--full-error {}: give a distance above 0", full_error));
+    return failure(ErrorKind::kUsage,
+                   fmt::format("{} {}: give a distance above 0", option_name("full-error"), full_error));
   const auto distance = SurfaceDistance::build(truth);
   if (!distance) return std::unexpected(distance.error().within("truth"));
   std::vector<Eigen::Vector3d> points;

@@ -7,8 +7,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/core/check.h"
 
@@ -49,16 +51,20 @@ double squared_distance_to_triangle(const Eigen::Vector3d& point, const Eigen::V
 
 }  // namespace
 
-/// The search tree holds boxes in coordinates of about -0.5 to 0.5, whatever the unit and place of the surface.
+/// A search tree over primitives that lie together. It holds boxes in coordinates of about -0.5 to 0.5, whatever their
+/// unit and place.
 struct SurfaceDistance::Tree {
-  /// What one query carries through the tree.
+  /// What one query carries through the trees.
   struct Search {
-    const Tree& tree;
+    const Tree* tree = nullptr;
     Eigen::Vector3d point;
     double squared_distance = std::numeric_limits<double>::infinity();
   };
 
   const Mesh* surface = nullptr;
+  std::vector<std::uint32_t> primitives;  ///< triangles, or vertices where there are none
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();
+  Eigen::Vector3d high = Eigen::Vector3d::Zero();
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double scale = 1;  ///< tree units per scene unit
   std::unique_ptr<RTCSceneTy, ReleaseScene> scene;
@@ -69,10 +75,22 @@ struct SurfaceDistance::Tree {
 
   [[nodiscard]] Eigen::Vector3d to_tree(const Eigen::Vector3d& point) const { return (point - center) * scale; }
 
-  [[nodiscard]] double squared_distance(const Eigen::Vector3d& point, unsigned primitive) const {
-    if (surface->triangles.empty()) return (point - vertex(primitive)).squaredNorm();
+  /// The corners of a primitive: one point three times in a cloud.
+  [[nodiscard]] std::array<Eigen::Vector3d, 3> corners(std::uint32_t primitive) const {
+    if (surface->triangles.empty()) return {vertex(primitive), vertex(primitive), vertex(primitive)};
     const auto& [a, b, c] = surface->triangles[primitive];
-    return squared_distance_to_triangle(point, vertex(a), vertex(b), vertex(c));
+    return {vertex(a), vertex(b), vertex(c)};
+  }
+
+  [[nodiscard]] double squared_distance(const Eigen::Vector3d& point, std::uint32_t primitive) const {
+    if (surface->triangles.empty()) return (point - vertex(primitive)).squaredNorm();
+    const auto& [a, b, c] = corners(primitive);
+    return squared_distance_to_triangle(point, a, b, c);
+  }
+
+  /// To the box of all primitives.
+  [[nodiscard]] double squared_distance_to_box(const Eigen::Vector3d& point) const {
+    return (point - point.cwiseMax(low).cwiseMin(high)).squaredNorm();
   }
 
   /// Radius within which Embree must look so that it can't miss a closer primitive: the margin exceeds its rounding of
@@ -81,6 +99,11 @@ struct SurfaceDistance::Tree {
     constexpr double kMargin = 1e-6;
     return static_cast<float>(distance * scale * (1 + kMargin) + kMargin);
   }
+
+  /// Takes those of the primitives that lie together, at least half, and leaves the others.
+  static std::unique_ptr<Tree> take_cluster(const Mesh& surface, std::vector<std::uint32_t>& primitives);
+  Expected<void> build();
+  void look_for_closer(Search& search) const;
 
   static void bound_primitive(const RTCBoundsFunctionArguments* arguments);
   static bool visit_primitive(RTCPointQueryFunctionArguments* arguments);
@@ -99,15 +122,9 @@ Error embree_error(RTCError code, std::size_t primitives) {
 
 void SurfaceDistance::Tree::bound_primitive(const RTCBoundsFunctionArguments* arguments) {
   const Tree& tree = *static_cast<const Tree*>(arguments->geometryUserPtr);
-  Eigen::Vector3d low;
-  Eigen::Vector3d high;
-  if (tree.surface->triangles.empty()) {
-    low = high = tree.to_tree(tree.vertex(arguments->primID));
-  } else {
-    const auto& [a, b, c] = tree.surface->triangles[arguments->primID];
-    low = tree.to_tree(tree.vertex(a).cwiseMin(tree.vertex(b)).cwiseMin(tree.vertex(c)));
-    high = tree.to_tree(tree.vertex(a).cwiseMax(tree.vertex(b)).cwiseMax(tree.vertex(c)));
-  }
+  const auto& [a, b, c] = tree.corners(tree.primitives[arguments->primID]);
+  const Eigen::Vector3d low = tree.to_tree(a.cwiseMin(b).cwiseMin(c));
+  const Eigen::Vector3d high = tree.to_tree(a.cwiseMax(b).cwiseMax(c));
   constexpr float kFarthest = std::numeric_limits<float>::max();
   const auto down = [](double value) { return std::nextafter(static_cast<float>(value), -kFarthest); };
   const auto up = [](double value) { return std::nextafter(static_cast<float>(value), kFarthest); };
@@ -116,10 +133,11 @@ void SurfaceDistance::Tree::bound_primitive(const RTCBoundsFunctionArguments* ar
 
 bool SurfaceDistance::Tree::visit_primitive(RTCPointQueryFunctionArguments* arguments) {
   Search& search = *static_cast<Search*>(arguments->userPtr);
-  const double squared_distance = search.tree.squared_distance(search.point, arguments->primID);
+  const double squared_distance =
+      search.tree->squared_distance(search.point, search.tree->primitives[arguments->primID]);
   if (!(squared_distance < search.squared_distance)) return false;
   search.squared_distance = squared_distance;
-  arguments->query->radius = search.tree.search_radius(std::sqrt(squared_distance));
+  arguments->query->radius = search.tree->search_radius(std::sqrt(squared_distance));
   return true;
 }
 
@@ -140,49 +158,105 @@ double distance_to_triangle(const Eigen::Vector3d& point, const Eigen::Vector3d&
   return std::sqrt(squared_distance_to_triangle(point, a, b, c));
 }
 
-Expected<SurfaceDistance> SurfaceDistance::build(const Mesh& surface) {
-  if (auto checked = check_surface(surface); !checked) return std::unexpected(checked.error());
-  const std::size_t primitives = surface.triangles.empty() ? surface.vertices.size() : surface.triangles.size();
-  if (primitives >= RTC_INVALID_GEOMETRY_ID)
-    return failure(ErrorKind::kMemory, fmt::format("{} triangles or points; at most 2^32 - 2 can be searched, evaluate "
-                                                   "parts of them",
-                                                   primitives));
-
-  auto tree = std::make_shared<Tree>();
+// A corner that is far off would make a point of all others in a tree of all primitives, so that each query would look
+// at each of them.
+std::unique_ptr<SurfaceDistance::Tree> SurfaceDistance::Tree::take_cluster(const Mesh& surface,
+                                                                           std::vector<std::uint32_t>& primitives) {
+  constexpr double kFar = 1e4;  // times the median distance from the middle
+  auto tree = std::make_unique<Tree>();
   tree->surface = &surface;
-  Eigen::Vector3d low = tree->vertex(0);
-  Eigen::Vector3d high = low;
-  for (const Vertex& vertex : surface.vertices) {
-    low = low.cwiseMin(vertex.position.cast<double>());
-    high = high.cwiseMax(vertex.position.cast<double>());
+  const std::size_t half = (primitives.size() - 1) / 2;
+  std::vector<double> values(primitives.size());
+  const auto median = [&values, half] {
+    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(half));
+    return values[half];
+  };
+  Eigen::Vector3d middle;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(primitives, values.begin(),
+                           [&](std::uint32_t primitive) { return tree->corners(primitive)[0][axis]; });
+    middle[axis] = median();
   }
+  const auto distance = [&](std::uint32_t primitive) {
+    double most = 0.0;
+    for (const Eigen::Vector3d& corner : tree->corners(primitive))
+      most = std::max(most, (corner - middle).cwiseAbs().maxCoeff());
+    return most;
+  };
+  std::ranges::transform(primitives, values.begin(), distance);
+  const double far = kFar * median();
+  const auto others = std::stable_partition(primitives.begin(), primitives.end(),
+                                            [&](std::uint32_t primitive) { return distance(primitive) <= far; });
+  tree->primitives.assign(primitives.begin(), others);
+  primitives.erase(primitives.begin(), others);
+  return tree;
+}
+
+Expected<void> SurfaceDistance::Tree::build() {
+  low.setConstant(std::numeric_limits<double>::infinity());
+  high = -low;
+  for (const std::uint32_t primitive : primitives)
+    for (const Eigen::Vector3d& corner : corners(primitive)) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
   const double extent = (high - low).maxCoeff();
-  tree->center = (low + high) / 2;
-  tree->scale = extent > 0 ? 1 / extent : 1;
+  center = (low + high) / 2;
+  scale = extent > 0 ? 1 / extent : 1;
 
   const std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device(rtcNewDevice(nullptr), &rtcReleaseDevice);
-  if (!device) return std::unexpected(embree_error(rtcGetDeviceError(nullptr), primitives));
-  tree->scene.reset(rtcNewScene(device.get()));
+  if (!device) return std::unexpected(embree_error(rtcGetDeviceError(nullptr), primitives.size()));
+  scene.reset(rtcNewScene(device.get()));
   RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(primitives));
-  rtcSetGeometryUserData(geometry, tree.get());
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(primitives.size()));
+  rtcSetGeometryUserData(geometry, this);
   rtcSetGeometryBoundsFunction(geometry, &Tree::bound_primitive, nullptr);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometry(tree->scene.get(), geometry);
+  rtcAttachGeometry(scene.get(), geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(tree->scene.get());
+  rtcCommitScene(scene.get());
   if (const RTCError code = rtcGetDeviceError(device.get()); code != RTC_ERROR_NONE)
-    return std::unexpected(embree_error(code, primitives));
-  return SurfaceDistance(std::move(tree));
+    return std::unexpected(embree_error(code, primitives.size()));
+  return {};
+}
+
+void SurfaceDistance::Tree::look_for_closer(Search& search) const {
+  constexpr double kFar = 1e5;  // times the size of the box: single precision tells no primitive from another there
+  const double to_box = squared_distance_to_box(search.point);
+  if (to_box >= search.squared_distance) return;
+  if (to_box > kFar * kFar * (high - low).squaredNorm()) {
+    search.squared_distance = to_box;
+    return;
+  }
+  search.tree = this;
+  const Eigen::Vector3f place = to_tree(search.point).cast<float>();
+  RTCPointQuery query{place.x(), place.y(), place.z(), 0.0F, search_radius(std::sqrt(search.squared_distance))};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene.get(), &query, &context, &Tree::visit_primitive, &search);
+}
+
+Expected<SurfaceDistance> SurfaceDistance::build(const Mesh& surface) {
+  QUORUM_TRY(check_surface(surface));
+  const std::size_t count = surface.triangles.empty() ? surface.vertices.size() : surface.triangles.size();
+  if (count >= RTC_INVALID_GEOMETRY_ID)
+    return failure(ErrorKind::kMemory, fmt::format("{} triangles or points; at most 2^32 - 2 can be searched, evaluate "
+                                                   "parts of them",
+                                                   count));
+  std::vector<std::uint32_t> primitives(count);
+  std::iota(primitives.begin(), primitives.end(), 0U);
+  SurfaceDistance distance;
+  while (!primitives.empty()) {
+    std::shared_ptr<Tree> tree = Tree::take_cluster(surface, primitives);
+    QUORUM_TRY(tree->build());
+    distance.trees_.push_back(std::move(tree));
+  }
+  return distance;
 }
 
 double SurfaceDistance::operator()(const Eigen::Vector3d& point) const {
-  Tree::Search search{*tree_, point};
-  const Eigen::Vector3f place = tree_->to_tree(point).cast<float>();
-  RTCPointQuery query{place.x(), place.y(), place.z(), 0.0F, std::numeric_limits<float>::infinity()};
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(tree_->scene.get(), &query, &context, &Tree::visit_primitive, &search);
+  Tree::Search search{nullptr, point};
+  for (const auto& tree : trees_) tree->look_for_closer(search);
   return std::sqrt(search.squared_distance);
 }
 

@@ -28,7 +28,8 @@ class SurfaceDistance {
   /// Embree can't build its search tree.
   static Expected<SurfaceDistance> build(const Mesh& surface);
 
-  /// Distance of one point, scene units; the point is finite. May be called from several threads.
+  /// Distance of one point, scene units; the point is finite. From beyond 100,000 times the size of a part of the
+  /// surface it is that to the part's box, which is at most that much closer. May be called from several threads.
   double operator()(const Eigen::Vector3d& point) const;
 
   /// Distance of each point, in their order. In parallel.
@@ -36,8 +37,8 @@ class SurfaceDistance {
 
  private:
   struct Tree;
-  explicit SurfaceDistance(std::shared_ptr<const Tree> tree) : tree_(std::move(tree)) {}
-  std::shared_ptr<const Tree> tree_;
+  SurfaceDistance() = default;
+  std::vector<std::shared_ptr<const Tree>> trees_;  ///< of parts of the surface that lie far apart
 };
 
 }  // namespace quorum

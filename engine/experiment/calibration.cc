@@ -59,16 +59,13 @@ double Calibration::error() const {
 }
 
 Expected<ConfidenceCalibration> calibrate(const Scene& scene, const Workspace& workspace, const Mesh& truth) {
-  const auto distance = SurfaceDistance::build(truth);
-  if (!distance) return std::unexpected(distance.error());
+  QUORUM_ASSIGN(const auto distance, SurfaceDistance::build(truth));
   ConfidenceCalibration sums;
   for (const View& view : scene.views) {
     if (!workspace.has_depth_map(view.name)) continue;
-    const auto map = workspace.load_depth_map(view.name, view.width, view.height);
-    if (!map) return std::unexpected(map.error());
-    const auto certainty = workspace.load_certainty(view.name, view.width, view.height);
-    if (!certainty) return std::unexpected(certainty.error());
-    add_view(view, *map, *certainty, *distance, sums);
+    QUORUM_ASSIGN(const auto map, workspace.load_weighed_depth(view.name, view.width, view.height, false));
+    QUORUM_ASSIGN(const auto certainty, workspace.load_certainty(view.name, view.width, view.height));
+    add_view(view, map, certainty, distance, sums);
   }
   if (sums.confidence.count() == 0)
     return failure(ErrorKind::kInput, fmt::format("{}: holds no depths of this scene; run `quorum reconstruct` first",

@@ -239,8 +239,8 @@ Experiment defaults() {
 
 }  // namespace
 
-ReconstructOptions default_options(const std::string& scene) {
-  ReconstructOptions options;
+RunOptions default_options(const std::string& scene) {
+  RunOptions options;
   const ExperimentScene& source = find_scene(paper_scenes(), scene);
   options.mask_below = source.temple ? 0.0 : source.background_level;
   // The experiments are about the paper's method, whose windows don't tilt and whose distances lie along the line of
@@ -252,8 +252,8 @@ ReconstructOptions default_options(const std::string& scene) {
   return options;
 }
 
-ReconstructOptions paper_options(const std::string& scene) {
-  ReconstructOptions options = default_options(scene);
+RunOptions paper_options(const std::string& scene) {
+  RunOptions options = default_options(scene);
   options.views = {.neighbor_count = 4, .min_angle_deg = 4.0, .max_angle_deg = 90.0};
   options.sweep = {.window = 5,
                    .threshold = 0.6F,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/experiment/scenes.h"
-#include "engine/pipeline/reconstruct.h"
+#include "engine/pipeline/run.h"
 
 namespace quorum {
 
@@ -15,7 +15,7 @@ struct RunSettings {
   std::string scene;    ///< name of one of the catalog's scenes
   std::string label;    ///< what sets the run apart in its experiment
   int first_views = 0;  ///< only that many views of the scene, from the first; 0 = all
-  ReconstructOptions options;
+  RunOptions options;
 };
 
 /// A picture that a run leaves of its scene's figure view.
@@ -53,10 +53,10 @@ struct Catalog {
 /// threshold 0.6, two votes; windows follow the plane of equal depth, as half of the photographs are upside down. The
 /// background is left out where it is dark, as in 4.6. scene: name of one of
 /// paper_scenes().
-ReconstructOptions paper_options(const std::string& scene);
+RunOptions paper_options(const std::string& scene);
 
 /// The program's defaults, with the same background mask.
-ReconstructOptions default_options(const std::string& scene);
+RunOptions default_options(const std::string& scene);
 
 /// The experiments after section 4 of the paper.
 const Catalog& paper_catalog();

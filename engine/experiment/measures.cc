@@ -72,7 +72,7 @@ class DepthMapSums {
 
 }  // namespace
 
-Expected<DepthMeasures> measure_depth_maps(const OpenScene& scene, const ReconstructOptions& options,
+Expected<DepthMeasures> measure_depth_maps(const OpenScene& scene, const RunOptions& options,
                                            const Workspace& workspace, const RunReport& report) {
   DepthMeasures measures;
   for (const ViewReport& view : report.views) {
@@ -86,11 +86,9 @@ Expected<DepthMeasures> measure_depth_maps(const OpenScene& scene, const Reconst
   for (int index = 0; index < static_cast<int>(scene.scene.views.size()); ++index) {
     const View& view = scene.scene.views[static_cast<std::size_t>(index)];
     if (!workspace.has_depth_map(view.name)) continue;
-    const auto map = workspace.load_depth_map(view.name, view.width, view.height);
-    if (!map) return std::unexpected(map.error());
-    const auto object = images.mask(index);
-    if (!object) return std::unexpected(object.error());
-    sums.add(view, *map, **object, options.fusion);
+    QUORUM_ASSIGN(const auto map, workspace.load_depth_map(view.name, view.width, view.height));
+    QUORUM_ASSIGN(const auto object, images.mask(index));
+    sums.add(view, map, *object, options.fusion);
   }
   measures.loose_pixels = sums.loose;
   measures.background_pixels = sums.background;
@@ -98,9 +96,8 @@ Expected<DepthMeasures> measure_depth_maps(const OpenScene& scene, const Reconst
   measures.confidence = sums.mean_confidence();
   measures.roughness = median(sums.roughness);
   if (!scene.truth || sums.points.empty()) return measures;
-  const auto truth = SurfaceDistance::build(*scene.truth);
-  if (!truth) return std::unexpected(truth.error());
-  std::vector<double> errors = truth->to(sums.points);
+  QUORUM_ASSIGN(const auto truth, SurfaceDistance::build(*scene.truth));
+  std::vector<double> errors = truth.to(sums.points);
   const auto wrong = std::ranges::count_if(errors, [](double error) { return error > kWrong; });
   measures.wrong_share = static_cast<double>(wrong) / static_cast<double>(errors.size());
   measures.median_error = median(errors);
@@ -112,9 +109,8 @@ Expected<MeshScore> score_mesh(const OpenScene& scene, const Mesh& mesh) {
   if (!scene.truth || mesh.triangles.empty()) return measures;
   EvaluateOptions options;
   options.samples = 200000;
-  auto evaluation = evaluate(mesh, *scene.truth, options);
-  if (!evaluation) return std::unexpected(evaluation.error());
-  measures.evaluation = std::move(*evaluation);
+  QUORUM_ASSIGN(auto evaluation, evaluate(mesh, *scene.truth, options));
+  measures.evaluation = std::move(evaluation);
   return measures;
 }
 

@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/evaluate/evaluate.h"
 #include "engine/experiment/scenes.h"
-#include "engine/pipeline/reconstruct.h"
+#include "engine/pipeline/run.h"
 
 namespace quorum {
 
@@ -36,7 +36,7 @@ struct MeshScore {
 };
 
 /// Measures the depth maps in the workspace. report: of the run that made them. Fails as reading them does.
-Expected<DepthMeasures> measure_depth_maps(const OpenScene& scene, const ReconstructOptions& options,
+Expected<DepthMeasures> measure_depth_maps(const OpenScene& scene, const RunOptions& options,
                                            const Workspace& workspace, const RunReport& report);
 
 /// Compares the mesh with the scene's truth. Fails as evaluate() does.

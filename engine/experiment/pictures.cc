@@ -11,7 +11,7 @@
 #include "engine/io/image_file.h"
 #include "engine/io/preview.h"
 #include "engine/mesh/depth_mesh.h"
-#include "engine/mesh/render.h"
+#include "engine/render/render.h"
 #include "engine/volume/range_surface.h"
 
 namespace quorum {
@@ -67,38 +67,34 @@ class PictureWriter {
   std::filesystem::path folder_;
 };
 
-Expected<void> write_depth_pictures(const PictureWriter& writer, const View& view, const ReconstructOptions& options,
+Expected<void> write_depth_pictures(const PictureWriter& writer, const View& view, const RunOptions& options,
                                     const Workspace& workspace) {
   if (!workspace.has_depth_map(view.name)) return {};
-  const auto map = workspace.load_depth_map(view.name, view.width, view.height);
-  if (!map) return std::unexpected(map.error());
+  QUORUM_ASSIGN(const auto map, workspace.load_depth_map(view.name, view.width, view.height));
   const auto cells =
-      range_surface(map->depth, make_range_surface_params(view.camera, view.width, view.height, options.fusion));
-  if (auto drawn = writer.draw(Picture::kDepth, depth_mesh(view.camera, map->depth, cells), Shading::kShaded); !drawn)
-    return drawn;
-  if (auto written = writer.write(Picture::kCorrelation, color_map_unit(map->correlation)); !written) return written;
-  return writer.write(Picture::kConfidence, color_map_unit(map->confidence));
+      range_surface(map.depth, make_range_surface_params(view.camera, view.width, view.height, options.fusion));
+  QUORUM_TRY(writer.draw(Picture::kDepth, depth_mesh(view.camera, map.depth, cells), Shading::kShaded));
+  QUORUM_TRY(writer.write(Picture::kCorrelation, color_map_unit(map.correlation)));
+  return writer.write(Picture::kConfidence, color_map_unit(map.confidence));
 }
 
 }  // namespace
 
-Expected<void> write_pictures(const OpenScene& scene, const ReconstructOptions& options, const Workspace& workspace,
+Expected<void> write_pictures(const OpenScene& scene, const RunOptions& options, const Workspace& workspace,
                               const Mesh& mesh, const std::filesystem::path& folder) {
   const auto found = std::ranges::find(scene.scene.views, scene.source->figure_view, &View::name);
   const View& view = found != scene.scene.views.end() ? *found : scene.scene.views.front();
   const PictureWriter writer(view, scene.scene.bounds, scene.source->quarter_turns, folder);
-  const auto photo = read_image(view.image_path);
-  if (!photo) return std::unexpected(photo.error());
-  if (auto written = writer.write(Picture::kPhoto, *photo); !written) return written;
-  if (auto written = write_depth_pictures(writer, view, options, workspace); !written) return written;
+  QUORUM_ASSIGN(const auto photo, read_image(view.image_path));
+  QUORUM_TRY(writer.write(Picture::kPhoto, photo));
+  QUORUM_TRY(write_depth_pictures(writer, view, options, workspace));
   for (const auto& [picture, shading] : {std::pair{Picture::kMesh, Shading::kShaded},
                                          {Picture::kColor, Shading::kColor},
                                          {Picture::kMeshConfidence, Shading::kConfidence}})
-    if (auto drawn = writer.draw(picture, mesh, shading); !drawn) return drawn;
+    QUORUM_TRY(writer.draw(picture, mesh, shading));
   if (!scene.truth) return {};
-  const auto colored = color_by_error(mesh, *scene.truth, kFullError);
-  if (!colored) return std::unexpected(colored.error());
-  return writer.draw(Picture::kError, *colored, Shading::kColor);
+  QUORUM_ASSIGN(const auto colored, color_by_error(mesh, *scene.truth, kFullError));
+  return writer.draw(Picture::kError, colored, Shading::kColor);
 }
 
 }  // namespace quorum

@@ -14,7 +14,7 @@ namespace quorum {
 /// confidence in gray (the paper, figure 2), the mesh lit, in color, by confidence and, where the truth is known, by
 /// error (red: 1 mm and more), and the photograph; all cut to the object and set upright. A view without depth map has
 /// none of the first three. Fails as reading, drawing and writing do.
-Expected<void> write_pictures(const OpenScene& scene, const ReconstructOptions& options, const Workspace& workspace,
+Expected<void> write_pictures(const OpenScene& scene, const RunOptions& options, const Workspace& workspace,
                               const Mesh& mesh, const std::filesystem::path& folder);
 
 }  // namespace quorum

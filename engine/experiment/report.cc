@@ -78,7 +78,7 @@ std::string results_json(const std::vector<ExperimentResult>& results) {
       const RunSettings& settings = result.experiment->runs[run.run];
       Json json = {{"label", settings.label},
                    {"first_views", settings.first_views},
-                   {"options", Json::parse(options_json(settings.options))}};
+                   {"options", Json::parse(options_json(settings.options, RunStage::kScene, RunStage::kExtras))}};
       Json record = Json::parse(record_json(run.record));
       record.erase("identity");
       json.update(record);

@@ -89,22 +89,20 @@ Expected<void> draw_figures(ExperimentResult& result, const RunMaker& maker, con
       std::error_code ignored;
       ColorImage image;
       if (std::filesystem::exists(path, ignored)) {
-        auto read = read_image(path);
-        if (!read) return std::unexpected(read.error());
-        image = read->width > kPanelWidth ? scale_to_width(*read, kPanelWidth) : std::move(*read);
+        QUORUM_ASSIGN(auto read, read_image(path));
+        image = read.width > kPanelWidth ? scale_to_width(read, kPanelWidth) : std::move(read);
       }
       panels.push_back({std::move(image), panel.caption});
     }
     if (!complete) continue;
-    if (auto written = write_png(folder / (figure.name + ".png"), contact_sheet(panels, figure.columns)); !written)
-      return written;
+    QUORUM_TRY(write_png(folder / (figure.name + ".png"), contact_sheet(panels, figure.columns)));
     result.figures.push_back(figure.name);
   }
   return {};
 }
 
 Expected<void> write_tables(const std::vector<ExperimentResult>& results, const std::filesystem::path& folder) {
-  if (auto written = write_file(folder / "experiments.json", results_json(results)); !written) return written;
+  QUORUM_TRY(write_file(folder / "experiments.json", results_json(results)));
   return write_file(folder / "experiments.md", results_markdown(results));
 }
 
@@ -112,28 +110,25 @@ Expected<void> write_tables(const std::vector<ExperimentResult>& results, const 
 
 Expected<void> run_experiments(const Catalog& catalog, const ExperimentArguments& arguments, Backend& backend,
                                Progress& progress) {
-  const auto chosen = find_experiments(catalog, arguments.names);
-  if (!chosen) return std::unexpected(chosen.error());
+  QUORUM_ASSIGN(const auto chosen, find_experiments(catalog, arguments.names));
   const SceneShelf shelf(arguments.data, arguments.output / "scenes");
-  const auto plans = make_plans(catalog, *chosen, shelf, arguments.data, progress);
-  if (!plans) return std::unexpected(plans.error());
-  if (auto made = make_folder(arguments.output / "figures"); !made) return made;
+  QUORUM_ASSIGN(const auto plans, make_plans(catalog, chosen, shelf, arguments.data, progress));
+  QUORUM_TRY(make_folder(arguments.output / "figures"));
 
   RunMaker maker(arguments.output, catalog.scenes, shelf, backend, progress);
   std::vector<ExperimentResult> results;
-  for (const Plan& plan : *plans) {
+  for (const Plan& plan : plans) {
     ExperimentResult& result = results.emplace_back(ExperimentResult{plan.experiment, {}, {}});
     progress.stage(fmt::format("experiment {}", plan.experiment->name), static_cast<int>(plan.runs.size()));
     for (const std::size_t run : plan.runs) {
       const RunSettings& settings = plan.experiment->runs[run];
-      auto record = maker.run(settings);
-      if (!record) return std::unexpected(record.error());
-      progress.note((maker.was_made() ? "" : "kept: ") + result_line(settings, *record));
-      result.runs.push_back({run, std::move(*record)});
+      QUORUM_ASSIGN(auto record, maker.run(settings));
+      progress.note((maker.was_made() ? "" : "kept: ") + result_line(settings, record));
+      result.runs.push_back({run, std::move(record)});
       progress.step();
     }
-    if (auto drawn = draw_figures(result, maker, arguments.output / "figures"); !drawn) return drawn;
-    if (auto written = write_tables(results, arguments.output); !written) return written;
+    QUORUM_TRY(draw_figures(result, maker, arguments.output / "figures"));
+    QUORUM_TRY(write_tables(results, arguments.output));
   }
   return {};
 }

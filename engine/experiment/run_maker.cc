@@ -6,13 +6,13 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/clock.h"
 #include "engine/core/memory.h"
-#include "engine/core/version.h"
 #include "engine/experiment/pictures.h"
 #include "engine/io/file.h"
 #include "engine/io/ply.h"
+#include "engine/pipeline/reconstruct.h"
 #include "engine/pipeline/run_json.h"
+#include "engine/pipeline/stage_versions.h"
 
 namespace quorum {
 namespace {
@@ -64,20 +64,15 @@ struct Identity {
 };
 
 Identity identity_of(const OpenScene& scene, const RunSettings& settings) {
-  constexpr const char* kFusionOptions[] = {"voxel_size", "truncation",     "max_slope_deg", "feather",
-                                            "weights",    "min_confidence", "min_component", "largest_component"};
-  Identity identity;
-  identity.depth = {{"version", version()},
+  const auto options = [&](RunStage first, RunStage last) {
+    return Json::parse(options_json(settings.options, first, last));
+  };
+  return {.depth = {{"version", kDepthVersion},
                     {"scene", description(*scene.source)},
                     {"files", digest_of(scene.scene)},
                     {"first_views", settings.first_views},
-                    {"options", Json::parse(options_json(settings.options))}};
-  for (const char* name : kFusionOptions) {
-    Json& options = identity.depth["options"];
-    identity.fusion[name] = options[name];
-    options.erase(name);
-  }
-  return identity;
+                    {"options", options(RunStage::kScene, RunStage::kDepth)}},
+          .fusion = {{"version", kFusionVersion}, {"options", options(RunStage::kConfirm, RunStage::kClean)}}};
 }
 
 std::string run_id(const RunRecord& record) { return fmt::format("{}-{}", record.scene, digest_of(record.identity)); }
@@ -106,24 +101,6 @@ bool can_find_depth(const Scene& scene, const SelectViewsOptions& options) {
   return false;
 }
 
-/// Adds the time of a part of the pipeline to a record.
-class RecordTimer {
- public:
-  explicit RecordTimer(RunRecord& record)
-      : record_(record), wall_start_(wall_seconds()), cpu_start_(process_cpu_seconds()) {}
-  ~RecordTimer() {
-    record_.wall_seconds += wall_seconds() - wall_start_;
-    record_.cpu_seconds += process_cpu_seconds() - cpu_start_;
-  }
-  RecordTimer(const RecordTimer&) = delete;
-  RecordTimer& operator=(const RecordTimer&) = delete;
-
- private:
-  RunRecord& record_;
-  double wall_start_;
-  double cpu_start_;
-};
-
 }  // namespace
 
 std::filesystem::path RunMaker::picture_path(const RunRecord& record, Picture picture) const {
@@ -134,20 +111,18 @@ Expected<const OpenScene*> RunMaker::open(const std::string& scene) {
   const ExperimentScene& source = find_scene(scenes_, scene);
   if (!open_ || open_->source != &source) {
     open_.reset();
-    auto opened = shelf_.open(source);
-    if (!opened) return std::unexpected(opened.error());
-    open_ = std::make_unique<OpenScene>(std::move(*opened));
+    QUORUM_ASSIGN(auto opened, shelf_.open(source));
+    open_ = std::make_unique<OpenScene>(std::move(opened));
   }
   return open_.get();
 }
 
 Expected<RunRecord> RunMaker::run(const RunSettings& settings) {
   was_made_ = false;
-  const auto opened = open(settings.scene);
-  if (!opened) return std::unexpected(opened.error());
+  QUORUM_ASSIGN(const auto opened, open(settings.scene));
   RunRecord record;
   record.scene = settings.scene;
-  record.identity = identity_of(**opened, settings).text();
+  record.identity = identity_of(*opened, settings).text();
   record.device = backend_.description();
   const std::filesystem::path path = folder_ / "runs" / (run_id(record) + ".json");
   if (const auto text = read_file(path); text) {
@@ -155,45 +130,40 @@ Expected<RunRecord> RunMaker::run(const RunSettings& settings) {
     if (kept && kept->identity == record.identity) return kept;
   }
   was_made_ = true;
-  const OpenScene scene = first_views(**opened, settings.first_views);
+  const OpenScene scene = first_views(*opened, settings.first_views);
   if (!can_find_depth(scene.scene, settings.options.views)) {
     record.problem = fmt::format("no surface: none of {} views has two neighbors", scene.scene.views.size());
   } else if (auto made = make(scene, settings, record); !made) {
     return std::unexpected(made.error().within(fmt::format("{}, {}", settings.scene, settings.label)));
   }
-  if (auto folder = make_folder(folder_ / "runs"); !folder) return std::unexpected(folder.error());
-  if (auto written = write_file(path, record_json(record)); !written) return std::unexpected(written.error());
+  QUORUM_TRY(make_folder(folder_ / "runs"));
+  QUORUM_TRY(write_file(path, record_json(record)));
   return record;
 }
 
 Expected<void> RunMaker::make(const OpenScene& scene, const RunSettings& settings, RunRecord& record) {
-  auto workspace = Workspace::open(folder_ / "work");
-  if (!workspace) return std::unexpected(workspace.error());
-  if (auto provided = provide_depth_maps(scene, settings, *workspace, record); !provided) return provided;
-  RunReport report;
+  QUORUM_ASSIGN(const Workspace workspace, Workspace::open(folder_ / "work"));
   SilentProgress silent(progress_);
-  {
-    const RecordTimer timer(record);
-    if (auto fused = fuse_depth_maps(scene.scene, settings.options, backend_, *workspace, silent, report); !fused)
-      return fused;
-  }
+  RunOptions options = settings.options;
+  options.saved_maps = SavedMaps::kAll;  // correlation is measured
+  QUORUM_TRY(provide_depth_maps({scene.scene, options, backend_, workspace, silent}, scene, record));
+  Run run{scene.scene, options, backend_, workspace, silent};
+  QUORUM_TRY(reconstruct(run, {.depth_maps = false}));
+  record.wall_seconds += run.report.wall_seconds;
+  record.cpu_seconds += run.report.cpu_seconds;
   record.peak_memory_bytes = peak_memory_bytes();
-  record.voxel_size = report.voxel_size;
-  record.min_confidence = report.min_confidence;
-  const auto mesh = read_ply(workspace->mesh_path());
-  if (!mesh) return std::unexpected(mesh.error());
-  auto score = score_mesh(scene, *mesh);
-  if (!score) return std::unexpected(score.error());
-  record.mesh = std::move(*score);
+  record.voxel_size = run.report.voxel_size;
+  record.min_confidence = run.report.min_confidence;
+  QUORUM_ASSIGN(const Mesh mesh, read_ply(workspace.mesh_path(), scene.scene.offset));
+  QUORUM_ASSIGN(record.mesh, score_mesh(scene, mesh));
   const std::filesystem::path pictures = folder_ / "runs" / run_id(record);
-  if (auto folder = make_folder(pictures); !folder) return folder;
-  return write_pictures(scene, settings.options, *workspace, *mesh, pictures);
+  QUORUM_TRY(make_folder(pictures));
+  return write_pictures(scene, options, workspace, mesh, pictures);
 }
 
-/// Leaves the depth maps of the settings in the workspace. work/depth.json, written last, says what lies there.
-Expected<void> RunMaker::provide_depth_maps(const OpenScene& scene, const RunSettings& settings,
-                                            const Workspace& workspace, RunRecord& record) {
-  const std::filesystem::path note = workspace.folder() / "depth.json";
+/// Leaves the depth maps of the run in its workspace. work/depth.json, written last, says what lies there.
+Expected<void> RunMaker::provide_depth_maps(Run run, const OpenScene& scene, RunRecord& record) {
+  const std::filesystem::path note = run.workspace.folder() / "depth.json";
   const std::string identity = Identity{Json::parse(record.identity).at("depth"), {}}.text();
   if (const auto text = read_file(note); text) {
     auto kept = read_record(*text);
@@ -206,20 +176,12 @@ Expected<void> RunMaker::provide_depth_maps(const OpenScene& scene, const RunSet
   }
   std::error_code ignored;
   std::filesystem::remove(note, ignored);
-  std::filesystem::remove_all(workspace.folder() / "depth", ignored);
-  if (auto folder = make_folder(workspace.folder() / "depth"); !folder) return folder;
-  RunReport report;
-  SilentProgress silent(progress_);
-  {
-    const RecordTimer timer(record);
-    if (auto computed = compute_depth_maps(scene.scene, settings.options, backend_, workspace, silent, report);
-        !computed)
-      return computed;
-  }
-  auto measured = measure_depth_maps(scene, settings.options, workspace, report);
-  if (!measured) return std::unexpected(measured.error());
-  record.depth = *measured;
-  record.depth_cpu_seconds = record.cpu_seconds;
+  std::filesystem::remove_all(run.workspace.folder() / "depth", ignored);
+  QUORUM_TRY(make_folder(run.workspace.folder() / "depth"));
+  QUORUM_TRY(reconstruct(run, {.certainties = false, .mesh = false}));
+  record.wall_seconds = run.report.wall_seconds;
+  record.cpu_seconds = record.depth_cpu_seconds = run.report.cpu_seconds;
+  QUORUM_ASSIGN(record.depth, measure_depth_maps(scene, run.options, run.workspace, run.report));
   RunRecord kept = record;
   kept.identity = identity;
   return write_file(note, record_json(kept));

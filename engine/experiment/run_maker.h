@@ -33,8 +33,7 @@ class RunMaker {
  private:
   Expected<const OpenScene*> open(const std::string& scene);
   Expected<void> make(const OpenScene& scene, const RunSettings& settings, RunRecord& record);
-  Expected<void> provide_depth_maps(const OpenScene& scene, const RunSettings& settings, const Workspace& workspace,
-                                    RunRecord& record);
+  static Expected<void> provide_depth_maps(Run run, const OpenScene& scene, RunRecord& record);
 
   std::filesystem::path folder_;
   const std::vector<ExperimentScene>& scenes_;

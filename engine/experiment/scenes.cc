@@ -30,7 +30,7 @@ Expected<void> provide(const std::filesystem::path& folder, const ExperimentScen
   if (const auto found = read_file(note); found && *found == description(scene)) return {};
   std::error_code ignored;
   std::filesystem::remove(note, ignored);
-  if (auto made = synthesize_temple(folder, *scene.temple); !made) return made;
+  QUORUM_TRY(synthesize_temple(folder, *scene.temple));
   return write_file(note, description(scene));
 }
 
@@ -81,17 +81,14 @@ bool SceneShelf::has(const ExperimentScene& scene) const {
 
 Expected<OpenScene> SceneShelf::open(const ExperimentScene& scene) const {
   const std::filesystem::path folder = (scene.temple ? synthetic_ : data_) / scene.name;
-  if (scene.temple)
-    if (auto provided = provide(folder, scene); !provided) return std::unexpected(provided.error());
-  auto read = read_middlebury(folder, std::nullopt, {});
-  if (!read) return std::unexpected(read.error());
-  OpenScene open{&scene, std::move(*read), std::nullopt};
+  if (scene.temple) QUORUM_TRY(provide(folder, scene));
+  QUORUM_ASSIGN(auto read, read_middlebury(folder, std::nullopt, {}));
+  OpenScene open{&scene, std::move(read), std::nullopt};
   std::error_code ignored;
   const std::filesystem::path truth = folder / "gt.ply";
   if (!std::filesystem::exists(truth, ignored)) return open;
-  auto surface = read_ply(truth);
-  if (!surface) return std::unexpected(surface.error());
-  open.truth = std::move(*surface);
+  QUORUM_ASSIGN(auto surface, read_ply(truth, open.scene.offset));
+  open.truth = std::move(surface);
   return open;
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "shaders/layout.h"
-
 namespace quorum {
 
 PaddedImage pad_image(const ColorImage& image) {
@@ -17,27 +15,10 @@ PaddedImage pad_image(const ColorImage& image) {
   return padded;
 }
 
-int extra_sample_shift(int window) { return window > kLargestFullPrecisionWindow ? 1 : 0; }
-
 Sample sample_bilinear(const PaddedImage& image, int u, int v, int extra_shift) {
-  const int x = u >> kPositionBits;
-  const int y = v >> kPositionBits;
-  const int fraction_x = u & (kPositionScale - 1);
-  const int fraction_y = v & (kPositionScale - 1);
-  const Rgba p00 = image.at(x, y);
-  const Rgba p10 = image.at(x + 1, y);
-  const Rgba p01 = image.at(x, y + 1);
-  const Rgba p11 = image.at(x + 1, y + 1);
-  const int shift = kSampleShift + extra_shift;
-  const int center = (1 << (23 - shift));
-  const auto interpolate = [&](auto channel) {
-    const int top =
-        static_cast<int>(channel(p00)) * (kPositionScale - fraction_x) + static_cast<int>(channel(p10)) * fraction_x;
-    const int bottom =
-        static_cast<int>(channel(p01)) * (kPositionScale - fraction_x) + static_cast<int>(channel(p11)) * fraction_x;
-    return ((top * (kPositionScale - fraction_y) + bottom * fraction_y) >> shift) - center;
-  };
-  return {interpolate(red_of), interpolate(green_of), interpolate(blue_of)};
+  const Rgba* texel = image.pixels.data() + texel_index(u, v, image.stride());
+  return sample_bilinear(texel[0], texel[1], texel[image.stride()], texel[image.stride() + 1], u, v,
+                         kSampleShift + extra_shift);
 }
 
 }  // namespace quorum

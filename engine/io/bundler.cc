@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/io/file.h"
+#include "engine/io/find_photograph.h"
 #include "engine/io/image_size.h"
 #include "engine/io/text.h"
 #include "engine/io/view_list.h"
@@ -76,18 +77,31 @@ Expected<Bundle> parse_bundle(const fs::path& path, std::string_view text) {
   for (std::uint64_t i = 0; i < point_count && !words.failed(); ++i)
     bundle.points.push_back(next_point(words, bundle.cameras.size()));
   if (!words.at_end()) words.fail("more follows than the points that were counted");
-  if (auto done = words.done(); !done) return std::unexpected(done.error());
+  QUORUM_TRY(words.done());
   return bundle;
 }
 
-/// First words of the lines of list.txt.
+/// The lines of list.txt.
 Expected<std::vector<std::string>> read_list(const fs::path& path) {
-  const auto text = read_file(path);
-  if (!text) return std::unexpected(text.error());
+  QUORUM_ASSIGN(const auto text, read_file(path));
   std::vector<std::string> names;
-  LineReader lines(*text);
-  while (const auto line = lines.next_filled()) names.emplace_back(split_tokens(*line).front());
+  LineReader lines(text);
+  while (auto line = lines.next_filled()) {
+    line->remove_prefix(line->find_first_not_of(kTextSpace));
+    names.emplace_back(line->substr(0, line->find_last_not_of(kTextSpace) + 1));
+  }
   return names;
+}
+
+/// A line without the columns "0 650.5" (a focal length in pixels) or "0" that may follow a path.
+std::string without_focal(const std::string& line) {
+  const auto tokens = split_tokens(line);
+  std::size_t numbers = 0;
+  while (numbers < 2 && numbers + 1 < tokens.size() && parse_number<double>(tokens[tokens.size() - 1 - numbers]))
+    ++numbers;
+  if (numbers == 0 || tokens[tokens.size() - numbers] != "0") return line;
+  const std::string_view last = tokens[tokens.size() - 1 - numbers];
+  return line.substr(0, static_cast<std::size_t>(last.data() + last.size() - line.data()));
 }
 
 }  // namespace
@@ -102,42 +116,47 @@ fs::path find_bundle(const fs::path& folder) {
 Expected<Scene> read_bundler(const fs::path& folder, const fs::path& images) {
   const fs::path path = find_bundle(folder);
   if (path.empty()) return path_failure(folder, "holds neither bundle.out nor bundle/bundle.out");
-  const auto text = read_file(path);
-  if (!text) return std::unexpected(text.error());
-  auto bundle = parse_bundle(path, *text);
-  if (!bundle) return std::unexpected(bundle.error());
-  const auto names = read_list(folder / "list.txt");
-  if (!names) return std::unexpected(names.error());
-  if (names->size() != bundle->cameras.size())
-    return path_failure(folder / "list.txt", fmt::format("names {} images, but {} holds {} cameras", names->size(),
-                                                         path.string(), bundle->cameras.size()));
+  QUORUM_ASSIGN(const auto text, read_file(path));
+  QUORUM_ASSIGN(auto bundle, parse_bundle(path, text));
+  QUORUM_ASSIGN(const auto names, read_list(folder / "list.txt"));
+  if (names.size() != bundle.cameras.size())
+    return path_failure(folder / "list.txt", fmt::format("names {} images, but {} holds {} cameras", names.size(),
+                                                         path.string(), bundle.cameras.size()));
   ViewList list;
-  std::vector<int> view_of(names->size(), -1);
-  int count = 0;
-  for (std::size_t i = 0; i < names->size(); ++i) {
-    const BundleCamera& camera = bundle->cameras[i];
+  std::vector<int> view_of(names.size(), -1);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const BundleCamera& camera = bundle.cameras[i];
     if (camera.focal == 0.0) continue;
-    const fs::path image = (images.empty() ? folder : images) / (*names)[i];
-    const auto size = read_image_size(image);
-    if (!size) return std::unexpected(size.error().within(path.string()));
+    const fs::path image_folder = images.empty() ? folder : images;
+    std::string name = names[i];
+    fs::path image = find_photograph(image_folder, name);
+    if (image.empty()) {
+      name = without_focal(name);
+      image = find_photograph(image_folder, name);
+    }
     Lens lens;
-    lens.width = size->width;
-    lens.height = size->height;
+    if (!image.empty()) {
+      const auto size = read_image_size(image);
+      if (!size) return std::unexpected(size.error().within(path.string()));
+      lens.width = size->width;
+      lens.height = size->height;
+    }
     lens.focal = {camera.focal, camera.focal};
-    lens.principal = {(size->width - 1) / 2.0, (size->height - 1) / 2.0};
+    lens.principal = {(lens.width - 1) / 2.0, (lens.height - 1) / 2.0};
     lens.coefficients = {camera.k1, camera.k2};
-    if (auto added = list.add(fs::path((*names)[i]).lexically_normal().string(), image, camera.pose, lens); !added)
-      return std::unexpected(added.error().within(path.string()));
-    view_of[i] = count++;
+    const auto added = list.add(fs::path(name).lexically_normal().string(), image, camera.pose, lens);
+    if (!added) return std::unexpected(added.error().within(path.string()));
+    view_of[i] = *added;
   }
-  auto views = list.finish();
-  if (!views) return std::unexpected(views.error().within(path.string()));
-  for (SparsePoint& point : bundle->points) {
+  auto scene = list.finish();
+  if (!scene) return std::unexpected(scene.error().within(path.string()));
+  for (SparsePoint& point : bundle.points) {
     for (int& view : point.views) view = view_of[static_cast<std::size_t>(view)];
     std::erase(point.views, -1);
   }
-  std::erase_if(bundle->points, [](const SparsePoint& point) { return !point.position.allFinite(); });
-  return Scene{std::move(*views), {}, std::move(bundle->points)};
+  std::erase_if(bundle.points, [](const SparsePoint& point) { return !point.position.allFinite(); });
+  scene->points = std::move(bundle.points);
+  return scene;
 }
 
 }  // namespace quorum

@@ -42,6 +42,16 @@ class ByteReader {
     return text;
   }
 
+  /// So many bytes as they are.
+  std::string_view next_bytes(std::uint64_t count) {
+    if (failed_ || left() < count) {
+      failed_ = true;
+      return {};
+    }
+    position_ += count;
+    return bytes_.substr(position_ - count, count);
+  }
+
   /// A 64-bit count of records of at least record_bytes each; fails, with 0, if so many can't follow.
   std::uint64_t next_count(std::size_t record_bytes) {
     const auto count = next<std::uint64_t>();

@@ -7,6 +7,8 @@
 #include <unordered_map>
 
 #include "engine/camera/pose.h"
+#include "engine/core/option.h"
+#include "engine/io/find_photograph.h"
 #include "engine/io/text.h"
 #include "engine/io/view_list.h"
 
@@ -15,16 +17,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder in which the first image stands.
+/// The folder in which most of the images stand; halves and such only where none is at full size.
 Expected<fs::path> find_images(const fs::path& folder, const fs::path& model, const fs::path& given,
-                               const std::string& first) {
+                               const std::vector<ColmapImage>& images) {
   if (!given.empty()) return given;
-  std::error_code ignored;
-  for (const fs::path& candidate : {folder / "images", folder, model / "images", model.parent_path() / "images",
-                                    model.parent_path().parent_path() / "images"})
-    if (fs::is_regular_file(candidate / first, ignored)) return candidate;
-  return path_failure(folder / "images",
-                      fmt::format("image \"{}\" of the model is not there; give the folder with --images", first));
+  fs::path best;
+  std::ptrdiff_t most = 0;
+  for (const fs::path& candidate :
+       {folder / "images", folder, model / "images", model.parent_path() / "images",
+        model.parent_path().parent_path() / "images", folder / "images_2", folder / "images_4", folder / "images_8"}) {
+    if (most > 0 && candidate.parent_path() == folder && candidate.filename().string().starts_with("images_")) break;
+    std::error_code ignored;
+    if (!fs::is_directory(candidate, ignored)) continue;
+    const auto count = std::ranges::count_if(
+        images, [&](const ColmapImage& image) { return !find_photograph(candidate, image.name).empty(); });
+    if (count <= most) continue;
+    most = count;
+    best = candidate;
+  }
+  if (most > 0) return best;
+  return path_failure(folder / "images", fmt::format("image {} of the model is not there; give the folder with {}",
+                                                     quote_token(images.front().name), option_name("images")));
 }
 
 Expected<Camera> camera_of(const ColmapImage& image) {
@@ -45,11 +58,12 @@ std::vector<SparsePoint> points_of(const ColmapModel& model, const std::unordere
   for (const ColmapPoint& point : model.points) {
     if (!point.position.allFinite()) continue;
     SparsePoint seen{point.position, {}};
-    for (const std::uint32_t image : point.image_ids) seen.views.push_back(view_of.at(image));
+    for (const std::uint32_t image : point.image_ids)
+      if (const int view = view_of.at(image); view >= 0) seen.views.push_back(view);
     std::ranges::sort(seen.views);
     const auto repeated = std::ranges::unique(seen.views);
     seen.views.erase(repeated.begin(), repeated.end());
-    points.push_back(std::move(seen));
+    if (point.image_ids.empty() || !seen.views.empty()) points.push_back(std::move(seen));
   }
   return points;
 }
@@ -61,24 +75,33 @@ const ColmapCameraModel& pinhole_model() {
 
 }  // namespace
 
-fs::path find_colmap_model(const fs::path& folder) {
-  for (const fs::path& candidate : {folder / "sparse", folder / "sparse" / "0", folder})
-    if (!colmap_model_kind(candidate).empty()) return candidate;
-  fs::path only;
-  std::error_code code;
-  for (fs::directory_iterator entry(folder, code); !code && entry != fs::directory_iterator(); entry.increment(code)) {
-    if (colmap_model_kind(entry->path()).empty()) continue;
-    if (!only.empty()) return {};
-    only = entry->path();
+std::vector<ColmapModelFolder> list_colmap_models(const fs::path& folder) {
+  std::vector<ColmapModelFolder> models;
+  for (const fs::path& parent : {folder / "sparse", folder}) {
+    std::vector<fs::path> candidates = {parent};
+    std::error_code code;
+    for (fs::directory_iterator entry(parent, code); !code && entry != fs::directory_iterator(); entry.increment(code))
+      if (std::error_code ignored; entry->is_directory(ignored)) candidates.push_back(entry->path());
+    for (const fs::path& candidate : candidates)
+      if (!colmap_model_kind(candidate).empty()) models.push_back({candidate, count_colmap_images(candidate)});
+    if (!models.empty()) break;
   }
-  return only;
+  std::ranges::sort(models, [](const ColmapModelFolder& a, const ColmapModelFolder& b) {
+    return a.image_count != b.image_count ? a.image_count > b.image_count : a.path < b.path;
+  });
+  return models;
+}
+
+fs::path find_colmap_model(const fs::path& folder) {
+  const auto models = list_colmap_models(folder);
+  return models.empty() ? fs::path() : models.front().path;
 }
 
 Lens lens_of(const ColmapCamera& camera) {
   const auto& parameters = camera.parameters;
   const std::size_t focals = camera.model->focal_count;
   Lens lens;
-  lens.model = camera.model->is_fisheye ? Lens::Model::kFisheye : Lens::Model::kRadial;
+  lens.model = camera.model->lens;
   lens.width = camera.width;
   lens.height = camera.height;
   lens.focal = {parameters[0], parameters[focals - 1]};
@@ -87,32 +110,61 @@ Lens lens_of(const ColmapCamera& camera) {
   return lens;
 }
 
-Expected<Scene> read_colmap(const fs::path& folder, const fs::path& images) {
-  const fs::path model_folder = find_colmap_model(folder);
-  if (model_folder.empty())
-    return path_failure(folder, "no COLMAP model, or several, in this folder; give the folder of one model");
-  auto model = read_colmap_model(model_folder);
-  if (!model) return std::unexpected(model.error());
-  std::ranges::sort(model->images, {}, &ColmapImage::name);
-  if (model->images.empty()) return path_failure(model_folder, "the model holds no image");
-  const auto image_folder = find_images(folder, model_folder, images, model->images.front().name);
-  if (!image_folder) return std::unexpected(image_folder.error());
+namespace {
+
+/// The folder of the model that is to be read, and what is to be said of the choice.
+Expected<fs::path> choose_model(const fs::path& folder, const fs::path& given, std::vector<std::string>& notes) {
+  if (!given.empty()) {
+    for (const fs::path& candidate : {folder / given, folder / "sparse" / given, given})
+      if (!colmap_model_kind(candidate).empty()) return candidate;
+    return path_failure(folder / given,
+                        "holds no COLMAP model; give " + option_name("model") + " a folder such as sparse/0");
+  }
+  const auto models = list_colmap_models(folder);
+  if (models.empty()) return path_failure(folder, "no COLMAP model in this folder; give the folder of one model");
+  if (models.size() == 1) return models.front().path;
+  std::string others;
+  for (std::size_t i = 1; i < models.size(); ++i)
+    others += fmt::format("{}{} {}", i == 1 ? "" : ", ", models[i].path.lexically_relative(folder).string(),
+                          models[i].image_count);
+  notes.push_back(fmt::format("{} is taken, the largest of {} models, with {} images ({}); {} chooses another",
+                              models.front().path.lexically_relative(folder).string(), models.size(),
+                              models.front().image_count, others, option_name("model")));
+  return models.front().path;
+}
+
+}  // namespace
+
+Expected<Scene> read_colmap(const fs::path& folder, const fs::path& images, const fs::path& chosen) {
+  std::vector<std::string> notes;
+  QUORUM_ASSIGN(const auto model_folder, choose_model(folder, chosen, notes));
+  QUORUM_ASSIGN(auto model, read_colmap_model(model_folder));
+  std::ranges::sort(model.images, {}, &ColmapImage::name);
+  if (model.images.empty()) return path_failure(model_folder, "the model holds no image");
+  if (model.lost_sightings > 0)
+    notes.push_back(fmt::format("{} sightings of points by images that the model does not hold are left out",
+                                model.lost_sightings));
+  QUORUM_ASSIGN(const auto image_folder, find_images(folder, model_folder, images, model.images));
+  if (image_folder.filename().string().starts_with("images_"))
+    notes.push_back(fmt::format("the photographs are those of {}", image_folder.filename().string()));
 
   std::map<std::uint32_t, Lens> lens_of_camera;
-  for (const ColmapCamera& camera : model->cameras) lens_of_camera.emplace(camera.id, lens_of(camera));
+  for (const ColmapCamera& camera : model.cameras) lens_of_camera.emplace(camera.id, lens_of(camera));
   ViewList list;
   std::unordered_map<std::uint32_t, int> view_of;
-  for (const ColmapImage& image : model->images) {
+  for (const ColmapImage& image : model.images) {
     const auto pose = camera_of(image);
     if (!pose) return std::unexpected(pose.error().within(model_folder.string()));
-    view_of.emplace(image.id, static_cast<int>(view_of.size()));
-    if (auto added = list.add(image.name, *image_folder / image.name, *pose, lens_of_camera.at(image.camera_id));
-        !added)
-      return std::unexpected(added.error().within(model_folder.string()));
+    const auto added =
+        list.add(image.name, find_photograph(image_folder, image.name), *pose, lens_of_camera.at(image.camera_id));
+    if (!added) return std::unexpected(added.error().within(model_folder.string()));
+    view_of.emplace(image.id, *added);
   }
-  auto views = list.finish();
-  if (!views) return std::unexpected(views.error().within(model_folder.string()));
-  return Scene{std::move(*views), {}, points_of(*model, view_of)};
+  auto scene = list.finish();
+  if (!scene) return std::unexpected(scene.error().within(model_folder.string()));
+  scene->points = points_of(model, view_of);
+  scene->notes.insert(scene->notes.begin(), notes.begin(), notes.end());
+  return scene;
 }
 
 ColmapModel colmap_model_of(const std::vector<View>& views, const std::vector<std::string>& names,

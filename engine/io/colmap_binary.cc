@@ -55,9 +55,7 @@ Expected<std::vector<ColmapCamera>> parse_colmap_cameras_bin(const fs::path& pat
     if (reader.failed()) return camera;
     for (const ColmapCameraModel& known : colmap_camera_models())
       if (known.id == model) camera.model = &known;
-    if (camera.model == nullptr)
-      return record_failure(path, "camera", index,
-                            fmt::format("its model {} is not known; use image_undistorter", model));
+    if (camera.model == nullptr) return record_failure(path, "camera", index, unknown_camera_model({}, model));
     if (width > INT_MAX || height > INT_MAX)
       return record_failure(path, "camera", index, fmt::format("a size of {} x {} pixels is absurd", width, height));
     camera.width = static_cast<int>(width);

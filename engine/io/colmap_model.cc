@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cstring>
+#include <fstream>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -16,20 +17,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ColmapCameraModel kModels[] = {{"SIMPLE_PINHOLE", 0, 1, 0, false}, {"PINHOLE", 1, 2, 0, false},
-                                         {"SIMPLE_RADIAL", 2, 1, 1, false},  {"RADIAL", 3, 1, 2, false},
-                                         {"OPENCV", 4, 2, 4, false},         {"OPENCV_FISHEYE", 5, 2, 4, true},
-                                         {"FULL_OPENCV", 6, 2, 8, false},    {"SIMPLE_RADIAL_FISHEYE", 8, 1, 1, true},
-                                         {"RADIAL_FISHEYE", 9, 1, 2, true}};
+using Model = Lens::Model;
+
+constexpr ColmapCameraModel kModels[] = {{"SIMPLE_PINHOLE", 0, 1, 0, Model::kRadial},
+                                         {"PINHOLE", 1, 2, 0, Model::kRadial},
+                                         {"SIMPLE_RADIAL", 2, 1, 1, Model::kRadial},
+                                         {"RADIAL", 3, 1, 2, Model::kRadial},
+                                         {"OPENCV", 4, 2, 4, Model::kRadial},
+                                         {"OPENCV_FISHEYE", 5, 2, 4, Model::kFisheye},
+                                         {"FULL_OPENCV", 6, 2, 8, Model::kRadial},
+                                         {"FOV", 7, 2, 1, Model::kFov},
+                                         {"SIMPLE_RADIAL_FISHEYE", 8, 1, 1, Model::kFisheye},
+                                         {"RADIAL_FISHEYE", 9, 1, 2, Model::kFisheye},
+                                         {"THIN_PRISM_FISHEYE", 10, 2, 8, Model::kThinPrismFisheye},
+                                         {"RAD_TAN_THIN_PRISM_FISHEYE", 11, 2, 12, Model::kRadTanThinPrismFisheye},
+                                         {"SIMPLE_DIVISION", 12, 1, 1, Model::kDivision},
+                                         {"DIVISION", 13, 2, 1, Model::kDivision},
+                                         {"SIMPLE_FISHEYE", 14, 1, 0, Model::kFisheye},
+                                         {"FISHEYE", 15, 2, 0, Model::kFisheye},
+                                         {"EUCM", 16, 2, 2, Model::kEucm}};
 
 template <typename Record>
 using Parser = Expected<std::vector<Record>> (*)(const fs::path&, std::string_view);
 
 template <typename Record>
 Expected<std::vector<Record>> read_records(const fs::path& path, Parser<Record> parse) {
-  const auto bytes = read_file(path);
-  if (!bytes) return std::unexpected(bytes.error());
-  return parse(path, *bytes);
+  QUORUM_ASSIGN(const auto bytes, read_file(path));
+  return parse(path, bytes);
 }
 
 /// What refers to what must be there, and each id once.
@@ -47,15 +61,19 @@ Expected<void> check_references(const fs::path& folder, const std::string& kind,
                                             image.camera_id, kind));
   }
   std::unordered_set<std::uint64_t> points;
-  for (const ColmapPoint& point : model.points) {
-    const fs::path path = folder / ("points3D" + kind);
-    if (!points.insert(point.id).second) return path_failure(path, fmt::format("holds point {} twice", point.id));
-    for (const std::uint32_t image : point.image_ids)
-      if (!images.contains(image))
-        return path_failure(
-            path, fmt::format("point {} refers to image {}, which images{} does not hold", point.id, image, kind));
-  }
+  for (const ColmapPoint& point : model.points)
+    if (!points.insert(point.id).second)
+      return path_failure(folder / ("points3D" + kind), fmt::format("holds point {} twice", point.id));
   return {};
+}
+
+/// Drops the sightings by images that were removed from the model.
+void drop_lost_sightings(ColmapModel& model) {
+  std::unordered_set<std::uint32_t> images;
+  for (const ColmapImage& image : model.images) images.insert(image.id);
+  for (ColmapPoint& point : model.points)
+    model.lost_sightings +=
+        std::erase_if(point.image_ids, [&images](std::uint32_t image) { return !images.contains(image); });
 }
 
 /// Appends numbers as they stand in memory, little-endian.
@@ -79,6 +97,38 @@ class ByteWriter {
 
 std::span<const ColmapCameraModel> colmap_camera_models() { return kModels; }
 
+std::string unknown_camera_model(std::string_view name, int id) {
+  constexpr int kEquirectangular = 17;
+  if (name == "EQUIRECTANGULAR" || (name.empty() && id == kEquirectangular))
+    return "its model EQUIRECTANGULAR is a panorama, which no pinhole camera shows; cut the panoramas into perspective "
+           "views first (pycolmap's example panorama_sfm.py does)";
+  std::string known;
+  for (const ColmapCameraModel& model : kModels) known += fmt::format("{}{}", known.empty() ? "" : ", ", model.name);
+  return fmt::format("its model {} is not known; use image_undistorter, or one of {}",
+                     name.empty() ? std::to_string(id) : quote_token(name), known);
+}
+
+std::size_t count_colmap_images(const fs::path& folder) {
+  const std::string kind = colmap_model_kind(folder);
+  if (kind.empty()) return 0;
+  if (kind == ".bin") {
+    std::ifstream file(folder / "images.bin", std::ios::binary);
+    std::uint64_t count = 0;
+    file.read(reinterpret_cast<char*>(&count), sizeof(count));
+    return file ? count : 0;
+  }
+  const auto text = read_file(folder / "images.txt");
+  if (!text) return 0;
+  std::size_t count = 0;
+  LineReader lines(*text);
+  for (auto line = lines.next_filled(); line; line = lines.next_filled()) {
+    if ((*line)[line->find_first_not_of(kTextSpace)] == '#') continue;
+    ++count;
+    lines.next();
+  }
+  return count;
+}
+
 std::string colmap_model_kind(const fs::path& folder) {
   std::error_code ignored;
   for (const char* kind : {".bin", ".txt"})
@@ -92,25 +142,24 @@ Expected<ColmapModel> read_colmap_model(const fs::path& folder) {
   const std::string kind = colmap_model_kind(folder);
   if (kind.empty()) return path_failure(folder, "holds no COLMAP model (cameras and images, as .bin or .txt)");
   const bool binary = kind == ".bin";
-  auto cameras = read_records<ColmapCamera>(folder / ("cameras" + kind),
-                                            binary ? parse_colmap_cameras_bin : parse_colmap_cameras_txt);
-  if (!cameras) return std::unexpected(cameras.error());
-  auto images =
-      read_records<ColmapImage>(folder / ("images" + kind), binary ? parse_colmap_images_bin : parse_colmap_images_txt);
-  if (!images) return std::unexpected(images.error());
-  ColmapModel model{std::move(*cameras), std::move(*images), {}};
+  QUORUM_ASSIGN(auto cameras, read_records<ColmapCamera>(folder / ("cameras" + kind),
+                                                         binary ? parse_colmap_cameras_bin : parse_colmap_cameras_txt));
+  QUORUM_ASSIGN(auto images, read_records<ColmapImage>(folder / ("images" + kind),
+                                                       binary ? parse_colmap_images_bin : parse_colmap_images_txt));
+  ColmapModel model{std::move(cameras), std::move(images), {}, 0};
   const fs::path points_path = folder / ("points3D" + kind);
   std::error_code ignored;
   if (fs::exists(points_path, ignored)) {
-    auto points = read_records<ColmapPoint>(points_path, binary ? parse_colmap_points_bin : parse_colmap_points_txt);
-    if (!points) return std::unexpected(points.error());
-    model.points = std::move(*points);
+    QUORUM_ASSIGN(auto points,
+                  read_records<ColmapPoint>(points_path, binary ? parse_colmap_points_bin : parse_colmap_points_txt));
+    model.points = std::move(points);
   }
-  if (auto checked = check_references(folder, kind, model); !checked) return std::unexpected(checked.error());
+  QUORUM_TRY(check_references(folder, kind, model));
+  drop_lost_sightings(model);
   return model;
 }
 
-Expected<void> write_colmap_model(const fs::path& folder, const ColmapModel& model) {
+std::vector<NamedBytes> format_colmap_model(const ColmapModel& model) {
   ByteWriter cameras;
   cameras.add<std::uint64_t>(model.cameras.size());
   for (const ColmapCamera& camera : model.cameras) {
@@ -158,9 +207,11 @@ Expected<void> write_colmap_model(const fs::path& folder, const ColmapModel& mod
       points.add<std::uint32_t>(sighting.place);
     }
   }
-  for (const auto& [name, writer] :
-       {std::pair{"cameras.bin", &cameras}, {"images.bin", &images}, {"points3D.bin", &points}})
-    if (auto written = write_file(folder / name, writer->bytes()); !written) return written;
+  return {{"cameras.bin", cameras.bytes()}, {"images.bin", images.bytes()}, {"points3D.bin", points.bytes()}};
+}
+
+Expected<void> write_colmap_model(const fs::path& folder, const ColmapModel& model) {
+  for (const auto& [name, bytes] : format_colmap_model(model)) QUORUM_TRY(write_file(folder / name, bytes));
   return {};
 }
 

@@ -9,25 +9,31 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "engine/camera/lens.h"
 #include "engine/core/error.h"
 
 namespace quorum {
 
-/// A camera model under its name and number. Its parameters: one or two focal lengths, cx, cy, and coefficients.
+/// A camera model under its name and number. Its parameters: one or two focal lengths, cx, cy, and the coefficients of
+/// its lens, in their order.
 struct ColmapCameraModel {
   std::string_view name;
   int id = 0;
   std::size_t focal_count = 0;
   std::size_t coefficient_count = 0;
-  bool is_fisheye = false;
+  Lens::Model lens = Lens::Model::kRadial;
 
   [[nodiscard]] std::size_t parameter_count() const { return focal_count + 2 + coefficient_count; }
 };
 
-/// The camera models that are read: pinholes, radial ones, and fisheyes.
+/// The camera models that are read: all of COLMAP 4.2's but EQUIRECTANGULAR.
 std::span<const ColmapCameraModel> colmap_camera_models();
+
+/// Why a model of this name, or else of this number, is not read, and what helps.
+std::string unknown_camera_model(std::string_view name, int id);
 
 struct ColmapCamera {
   std::uint32_t id = 0;
@@ -64,24 +70,35 @@ struct ColmapModel {
   std::vector<ColmapCamera> cameras;
   std::vector<ColmapImage> images;
   std::vector<ColmapPoint> points;
+  std::size_t lost_sightings = 0;  ///< of points, by images that the files did not hold; they are left out
 };
 
 /// The kind of files that a folder holds a model in, ".bin" or ".txt" (cameras and images are there), or empty.
 std::string colmap_model_kind(const std::filesystem::path& folder);
 
+/// How many images the model in a folder holds, from the first bytes of images.bin or the lines of images.txt; 0 if
+/// there is no model.
+std::size_t count_colmap_images(const std::filesystem::path& folder);
+
 /// Reads the model in a folder; .bin is preferred to .txt. A model without points3D has no points; rigs and frames of
 /// newer models are not needed, since images hold their poses all the same. Fails (kInput) if a file is absent, cut off
-/// or too long, a value is no number, a camera model is unknown, an id comes twice, an image refers to an absent camera
-/// or a point to an absent image: the message names the file and the line or record. Memory is in proportion to the
+/// or too long, a value is no number, a camera model is unknown, an id comes twice, or an image refers to an absent
+/// camera: the message names the file and the line or record. Memory is in proportion to the
 /// files' sizes, whatever counts they state.
 Expected<ColmapModel> read_colmap_model(const std::filesystem::path& folder);
 
-/// Writes cameras.bin, images.bin and points3D.bin. The track of a point lists the observations with its id, in the
-/// order of the images. Fails (kInput) if a file can't be written.
-Expected<void> write_colmap_model(const std::filesystem::path& folder, const ColmapModel& model);
+/// The name of a file and its bytes.
+using NamedBytes = std::pair<std::string, std::string>;
+
+/// A model as cameras.bin, images.bin and points3D.bin. The track of a point lists the observations with its id, in the
+/// order of the images. Cannot fail.
+std::vector<NamedBytes> format_colmap_model(const ColmapModel& model);
 
 /// The same as cameras.txt, images.txt and points3D.txt, with the shortest numbers that read back as they are. Fails
-/// (kInput) also if the name of an image is empty, or begins or ends with a space, which the files can't say.
-Expected<void> write_colmap_model_txt(const std::filesystem::path& folder, const ColmapModel& model);
+/// (kInput) if the name of an image is empty, or begins or ends with a space, which the files can't say.
+Expected<std::vector<NamedBytes>> format_colmap_model_txt(const ColmapModel& model);
+
+/// Writes the files of format_colmap_model. Fails (kInput) if one can't be written.
+Expected<void> write_colmap_model(const std::filesystem::path& folder, const ColmapModel& model);
 
 }  // namespace quorum

@@ -5,7 +5,6 @@
 #include <unordered_map>
 
 #include "engine/io/colmap_files.h"
-#include "engine/io/file.h"
 #include "engine/io/text.h"
 
 namespace quorum {
@@ -77,7 +76,7 @@ Expected<std::vector<Record>> parse_records(const fs::path& path, std::string_vi
   while (const auto line = next_record(lines)) {
     Fields fields(path, lines.number(), *line);
     records.push_back(parse(fields));
-    if (auto done = fields.done(); !done) return std::unexpected(done.error());
+    QUORUM_TRY(fields.done());
   }
   return records;
 }
@@ -90,8 +89,7 @@ ColmapCamera parse_camera(Fields& fields) {
   camera.height = fields.number<int>("HEIGHT");
   for (const ColmapCameraModel& known : colmap_camera_models())
     if (known.name == model) camera.model = &known;
-  if (camera.model == nullptr)
-    fields.fail(fmt::format("the camera model {} is not known; use image_undistorter", quote_token(model)));
+  if (camera.model == nullptr) fields.fail(unknown_camera_model(model, -1));
   for (std::size_t i = 0; camera.model != nullptr && i < camera.model->parameter_count(); ++i)
     camera.parameters.push_back(fields.number<double>("a parameter"));
   return camera;
@@ -105,6 +103,7 @@ ColmapImage parse_image(Fields& fields) {
   image.camera_id = fields.number<std::uint32_t>("CAMERA_ID");
   image.name = fields.rest();
   if (image.name.empty()) fields.fail("NAME is missing");
+  if (has_control_characters(image.name)) fields.fail("NAME has control characters; rename the image");
   return image;
 }
 
@@ -157,17 +156,16 @@ Expected<std::vector<ColmapImage>> parse_colmap_images_txt(const fs::path& path,
   while (const auto line = next_record(lines)) {
     Fields fields(path, lines.number(), *line);
     images.push_back(parse_image(fields));
-    if (auto done = fields.done(); !done) return std::unexpected(done.error());
-    const auto second = lines.next();  // blank if the image has no features
-    Fields features(path, lines.number(), second.value_or(""));
-    if (!second) features.fail("the line with the features of the image is missing");
+    QUORUM_TRY(fields.done());
+    // Blank if the image has no features; editors drop such a line at the end.
+    Fields features(path, lines.number(), lines.next().value_or(""));
     images.back().observations = parse_observations(features);
-    if (auto done = features.done(); !done) return std::unexpected(done.error());
+    QUORUM_TRY(features.done());
   }
   return images;
 }
 
-Expected<void> write_colmap_model_txt(const fs::path& folder, const ColmapModel& model) {
+Expected<std::vector<NamedBytes>> format_colmap_model_txt(const ColmapModel& model) {
   std::string cameras = "# CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]\n";
   for (const ColmapCamera& camera : model.cameras)
     cameras += fmt::format("{} {} {} {} {}\n", camera.id, camera.model->name, camera.width, camera.height,
@@ -192,10 +190,7 @@ Expected<void> write_colmap_model_txt(const fs::path& folder, const ColmapModel&
   std::string points = "# POINT3D_ID X Y Z R G B ERROR TRACK[] as IMAGE_ID POINT2D_IDX\n";
   for (const ColmapPoint& point : model.points)
     points += fmt::format("{} {} {} 0{}\n", point.id, spaced(point.position), spaced(point.color), tracks[point.id]);
-  for (const auto& [name, text] :
-       {std::pair{"cameras.txt", &cameras}, {"images.txt", &images}, {"points3D.txt", &points}})
-    if (auto written = write_file(folder / name, *text); !written) return written;
-  return {};
+  return std::vector<NamedBytes>{{"cameras.txt", cameras}, {"images.txt", images}, {"points3D.txt", points}};
 }
 
 }  // namespace quorum

@@ -10,10 +10,11 @@
 
 #include "engine/camera/pose.h"
 #include "engine/io/colmap.h"
-#include "engine/io/file.h"
 #include "engine/io/mvsnet.h"
+#include "engine/io/output_folder.h"
 #include "engine/io/scene_pictures.h"
 #include "engine/io/transforms.h"
+#include "engine/scene/local_frame.h"
 
 namespace quorum {
 namespace {
@@ -63,12 +64,14 @@ SettledScene settle(const Scene& scene) {
   return settled;
 }
 
-Expected<void> write_colmap(const fs::path& folder, const SettledScene& settled, const std::vector<std::string>& names,
+Expected<void> write_colmap(OutputFolder& output, const SettledScene& settled, const std::vector<std::string>& names,
                             bool text) {
   ColmapModel model = colmap_model_of(settled.scene.views, names, settled.scene.points);
   for (std::size_t i = 0; i < names.size(); ++i) model.images[i].rotation = settled.quaternions[i];
-  if (auto made = make_folder(folder / "sparse"); !made) return made;
-  return text ? write_colmap_model_txt(folder / "sparse", model) : write_colmap_model(folder / "sparse", model);
+  QUORUM_ASSIGN(const auto files,
+                text ? format_colmap_model_txt(model) : Expected<std::vector<NamedBytes>>(format_colmap_model(model)));
+  for (const auto& [name, bytes] : files) QUORUM_TRY(output.write(fs::path("sparse") / name, bytes));
+  return {};
 }
 
 }  // namespace
@@ -78,22 +81,23 @@ Expected<void> convert_scene(const fs::path& folder, const Scene& scene, Convert
     if (view.camera.intrinsics(0, 1) != 0.0)
       return failure(ErrorKind::kInput,
                      fmt::format("{}: its camera has skew, which the other formats have not", view.name));
-  const SettledScene settled = settle(scene);
+  const SettledScene settled = settle(in_world(scene));
   std::vector<std::string> names = picture_names(settled.scene);
   if (format == ConvertedFormat::kMvsnet)
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = mvsnet_name(i) + fs::path(names[i]).extension().string();
-  if (auto written = write_pictures(folder / "images", settled.scene, names); !written) return written;
+  QUORUM_TRY(write_pictures(folder / "images", settled.scene, names));
+  QUORUM_ASSIGN(auto output, OutputFolder::open(folder));
   Expected<void> written;
   if (format == ConvertedFormat::kMvsnet)
-    written = write_mvsnet(folder, settled.scene);
+    written = write_mvsnet(output, settled.scene);
   else if (format == ConvertedFormat::kTransforms)
-    written = write_transforms(folder, settled.scene.views, names, settled.centers);
+    written = write_transforms(output, settled.scene.views, names, settled.centers);
   else
-    written = write_colmap(folder, settled, names, format == ConvertedFormat::kColmapText);
+    written = write_colmap(output, settled, names, format == ConvertedFormat::kColmapText);
   if (!written) return written;
-  const auto& [low, high] = scene.bounds;
-  return write_file(folder / "bounds.txt",
-                    fmt::format("{} {} {}\n{} {} {}\n", low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
+  const auto& [low, high] = settled.scene.bounds;
+  return output.write("bounds.txt",
+                      fmt::format("{} {} {}\n{} {} {}\n", low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
 }
 
 }  // namespace quorum

@@ -22,7 +22,8 @@ enum class ConvertedFormat {
 /// value of R moves by 2e-15 at most, t by about as much of its length, and a principal point whose fraction is finer
 /// than that of its sum with 0.5 to the latter's. Points go to kColmap and kColmapText; depth ranges and neighbors to
 /// kMvsnet, made by select_views and from the bounds where the scene has none; masks nowhere. Fails (kInput) if a
-/// camera has skew, the bounds lie behind one, a photograph can't be read, or a file can't be written.
+/// camera has skew, the bounds lie behind one, a photograph can't be read, or a file can't be written or would replace
+/// one that is not ours (OutputFolder).
 Expected<void> convert_scene(const std::filesystem::path& folder, const Scene& scene, ConvertedFormat format);
 
 }  // namespace quorum

@@ -5,13 +5,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
+
+#include "engine/io/temporary_file.h"
 
 namespace quorum {
 namespace {
@@ -44,55 +46,6 @@ std::unexpected<Error> system_failure(const fs::path& path, std::string_view act
   if (!reason.empty()) reason[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(reason[0])));
   return failure(ErrorKind::kInput, fmt::format("{}: cannot {}: {}; {}", path.string(), action, reason, remedy(code)));
 }
-
-/// An open file descriptor, or -1; closed at the end of its scope.
-class Descriptor {
- public:
-  explicit Descriptor(int value) : value_(value) {}
-  Descriptor(Descriptor&& other) noexcept : value_(std::exchange(other.value_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  ~Descriptor() {
-    if (value_ >= 0) ::close(value_);
-  }
-  [[nodiscard]] int get() const { return value_; }
-
- private:
-  int value_;
-};
-
-/// A new file in a folder, removed at the end of its scope unless it was renamed.
-class TemporaryFile {
- public:
-  /// On failure the descriptor is -1 and errno says why.
-  explicit TemporaryFile(const fs::path& folder) : descriptor_(create(folder, path_)) {}
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    if (descriptor_.get() >= 0 && !renamed_) ::unlink(path_.c_str());
-  }
-
-  [[nodiscard]] int descriptor() const { return descriptor_.get(); }
-  [[nodiscard]] bool rename_to(const fs::path& path) {
-    renamed_ = ::rename(path_.c_str(), path.c_str()) == 0;
-    return renamed_;
-  }
-
- private:
-  // Another process, perhaps on another machine, can have the same number and have left or be writing the same name:
-  // O_EXCL sees that, and the next name is tried.
-  static Descriptor create(const fs::path& folder, fs::path& path) {
-    static std::atomic<unsigned> counter = 0;
-    while (true) {
-      path = folder / fmt::format(".quorum-{}-{}.tmp", ::getpid(), counter++);
-      const int value = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (value >= 0 || errno != EEXIST) return Descriptor(value);
-    }
-  }
-
-  fs::path path_;
-  Descriptor descriptor_;
-  bool renamed_ = false;
-};
 
 /// False, with the reason in errno, if not all bytes could be written.
 bool write_all(int descriptor, std::string_view bytes) {
@@ -138,21 +91,71 @@ Expected<std::string> read_file(const fs::path& path) try {
   return failure(ErrorKind::kMemory, fmt::format("{}: does not fit into memory", path.string()));
 }
 
-Expected<void> write_file(const fs::path& path, std::string_view bytes) {
-  // Renaming onto a device or a pipe would replace it.
+namespace {
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
+
+/// Renaming onto a device or a pipe would replace it.
+Expected<void> check_replaceable(const fs::path& path) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status))
     return failure(ErrorKind::kInput,
                    fmt::format("{}: cannot write: is not a regular file; choose another output path", path.string()));
+  return {};
+}
 
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+}  // namespace
+
+Expected<void> check_writable(const fs::path& path) {
+  QUORUM_TRY(check_replaceable(path));
+  const TemporaryFile probe(folder_of(path));
+  if (probe.descriptor() < 0) return system_failure(path, "write", errno);
+  return {};
+}
+
+Expected<void> write_file(const fs::path& path, std::string_view bytes) {
+  QUORUM_TRY(check_replaceable(path));
+  const fs::path folder = folder_of(path);
   TemporaryFile temporary(folder);
   if (temporary.descriptor() < 0 || !write_all(temporary.descriptor(), bytes) || ::fsync(temporary.descriptor()) != 0 ||
       !temporary.rename_to(path))
     return system_failure(path, "write", errno);
   sync_folder(folder);
   return {};
+}
+
+struct FileGroup::Member {
+  std::unique_ptr<TemporaryFile> file;
+  fs::path path;
+};
+
+FileGroup::FileGroup() = default;
+FileGroup::~FileGroup() = default;
+
+Expected<void> FileGroup::add(const fs::path& path, std::string_view bytes) {
+  QUORUM_TRY(check_replaceable(path));
+  auto file = std::make_unique<TemporaryFile>(folder_of(path));
+  if (file->descriptor() < 0 || !write_all(file->descriptor(), bytes)) return system_failure(path, "write", errno);
+  members_.push_back({std::move(file), path});
+  return {};
+}
+
+Expected<void> FileGroup::finish() {
+  if (members_.empty()) return {};
+  // All that the file system has not written yet, which is little else, rather than a wait for each file.
+  if (::syncfs(members_.front().file->descriptor()) != 0) return system_failure(members_.front().path, "write", errno);
+  for (Member& member : members_)
+    if (!member.file->rename_to(member.path)) return system_failure(member.path, "write", errno);
+  sync_folder(folder_of(members_.front().path));
+  members_.clear();
+  return {};
+}
+
+void remove_file(const fs::path& path) {
+  struct stat status = {};
+  if (::lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::unlink(path.c_str()) == 0)
+    sync_folder(folder_of(path));
 }
 
 Expected<void> make_folder(const fs::path& path) {

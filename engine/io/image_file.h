@@ -2,23 +2,54 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "engine/core/error.h"
 #include "engine/image/image.h"
 
 namespace quorum {
 
-/// Reads an image file of any kind that OpenCV decodes, as 8-bit color (gray becomes color, 16 bits are scaled). The
+/// Reads an image file of any kind that OpenCV decodes, or HEIC or AVIF, as 8-bit color (gray becomes color). Of 16
+/// bits the upper 8 stay of those that the file uses, that is 8, 10, 12, 14 or 16 by its largest value; where that
+/// would leave less than 64 levels, and for floating-point values, the range of the file's values becomes 0 to 255. The
 /// pixels stay as they are stored: an orientation in the file is ignored, because the camera belongs to the stored
 /// pixels. Fails (kInput) if the file is absent or does not decode; the message names the file.
 Expected<ColorImage> read_image(const std::filesystem::path& path);
 
+/// The same from the bytes of such a file. path: what messages name.
+Expected<ColorImage> decode_image(const std::filesystem::path& path, std::string bytes);
+
+/// Says in a line how read_image takes a file of more than 8 bits, if it is not by all 16 of them; else empty. Fails as
+/// read_image does.
+Expected<std::string> describe_pixel_range(const std::filesystem::path& path);
+
+/// Reads the alpha channel of a photograph as a mask: 1 where it is more than half opaque; 1 everywhere without one.
+/// Fails as read_image does.
+Expected<Mask> read_alpha(const std::filesystem::path& path);
+
+/// A mask at another size, > 0, in pixels: each pixel is the nearest one.
+Mask scale_mask(const Mask& mask, int width, int height);
+
 /// Reads a mask file: 1 where the gray value is above 0, 0 elsewhere. Fails as read_image does.
 Expected<Mask> read_mask(const std::filesystem::path& path);
+
+/// An image as the bytes of a PNG file. Fails (kInput) if it is empty or too large for one.
+Expected<std::string> encode_png(const ColorImage& image);
+
+/// The same as JPEG, sides up to 65,535 pixels; quality: 1 to 100.
+Expected<std::string> encode_jpeg(const ColorImage& image, int quality);
 
 /// Writes an image as PNG under path, through a temporary file, so that path never holds half an image.
 /// Fails (kInput) if the image is empty or the file can't be written.
 Expected<void> write_png(const std::filesystem::path& path, const ColorImage& image);
+
+/// The same in the format that the ending of path names: .png, .jpg, .jpeg, .tif, .tiff, .bmp or .webp. Fails (kUsage)
+/// if it is another one.
+Expected<void> write_image(const std::filesystem::path& path, const ColorImage& image);
+
+/// True while a library decodes or encodes an image. Some abort the process where memory runs out (GDAL). May be called
+/// from a signal handler.
+bool is_in_image_library();
 
 /// Background mask of a photograph before a dark background, by the recipe of the Middlebury dino README: pixels whose
 /// brightest channel exceeds level (0..1, of 255) are object; the object is dilated with the disc of radius 10 (pixels

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <type_traits>
 
 #include "engine/core/check.h"
 #include "engine/image/halve.h"
 #include "engine/io/image_file.h"
+#include "engine/io/image_size.h"
 #include "engine/io/undistort.h"
 
 namespace quorum {
@@ -31,12 +33,24 @@ template <typename T>
 Expected<Grid<T>> load(const View& view, const std::filesystem::path& path, const Steps<T>& steps) {
   const int width = view.photo_width > 0 ? view.photo_width : view.width;
   const int height = view.photo_width > 0 ? view.photo_height : view.height;
-  auto pixels = steps.read(path);
-  if (!pixels) return pixels;
-  if (pixels->width != width || pixels->height != height)
+  const auto check_size = [&](ImageSize size) -> Expected<void> {
+    if (size == ImageSize{width, height}) return {};
     return failure(ErrorKind::kInput,
                    fmt::format("{}: is {} x {}, expected {} x {} for its camera; replace it or leave its view out",
-                               path.string(), pixels->width, pixels->height, width, height));
+                               path.string(), size.width, size.height, width, height));
+  };
+  // Before it is decoded: a small file can hold a picture that is larger than the memory.
+  QUORUM_ASSIGN(const ImageSize told, read_image_size(path));
+  constexpr double kSmallest = 0.12;  // images_8; one that is much larger takes memory that no budget was asked for
+  const auto factor = common_factor(told, {width, height});
+  const bool is_scaled_mask =  // the photographs were made smaller, the masks not
+      std::is_same_v<T, std::uint8_t> && told.width != width && factor && *factor > kSmallest;
+  if (!is_scaled_mask) QUORUM_TRY(check_size(told));
+  auto pixels = steps.read(path);
+  if (!pixels) return pixels;
+  if constexpr (std::is_same_v<T, std::uint8_t>)
+    if (is_scaled_mask) *pixels = scale_mask(*pixels, width, height);
+  QUORUM_TRY(check_size({pixels->width, pixels->height}));
   if (view.lens) {
     const auto picture = pinhole_picture(*view.lens);
     QUORUM_CHECK_EQ(picture.has_value(), true);
@@ -88,14 +102,14 @@ Expected<Mask> ImageStore::load_mask(int view) {
   const View& source = view_at(view);
   Mask mask(source.width, source.height, 1);
   if (!source.mask_path.empty()) {
-    auto from_file = load(source, source.mask_path, Steps<std::uint8_t>{read_mask, undistort_mask, halve_mask});
+    const auto read = source.mask_path == source.image_path ? read_alpha : read_mask;
+    auto from_file = load(source, source.mask_path, Steps<std::uint8_t>{read, undistort_mask, halve_mask});
     if (!from_file) return from_file;
     mask = std::move(*from_file);
   }
   if (mask_below_ > 0.0) {
-    const auto photograph = image(view);
-    if (!photograph) return std::unexpected(photograph.error());
-    const Mask object = mask_dark_background(**photograph, mask_below_);
+    QUORUM_ASSIGN(const auto photograph, image(view));
+    const Mask object = mask_dark_background(*photograph, mask_below_);
     std::ranges::transform(mask.values, object.values, mask.values.begin(), std::bit_and<>());
   }
   return mask;

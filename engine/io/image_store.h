@@ -28,8 +28,9 @@ class ImageStore {
   /// is absent, does not decode, or has another size than the view or the lens says.
   Expected<std::shared_ptr<const ColorImage>> image(int view);
 
-  /// Mask of a view: 1 where its mask file, if it has one, and the background mask, if that is on, both say that the
-  /// pixel takes part. Empty if neither applies. Fails (kInput) as image() does.
+  /// Mask of a view: 1 where its mask file, if it has one, at the photograph's size or another one of its shape, and
+  /// the background mask, if that is on, both say that the pixel takes part. Empty if neither applies. Fails (kInput)
+  /// as image() does.
   Expected<std::shared_ptr<const Mask>> mask(int view);
 
   /// Bytes that are kept now.

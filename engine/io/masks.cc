@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/io/find_photograph.h"
+
 namespace quorum {
 
 Expected<void> find_masks(const std::filesystem::path& masks, std::vector<View>& views) {
@@ -14,10 +16,11 @@ Expected<void> find_masks(const std::filesystem::path& masks, std::vector<View>&
   for (View& view : views) {
     const std::string with_extension = view.image_name + ".png";
     const std::string alone = fs::path(view.image_name).replace_extension(".png").string();
-    for (const std::string& name : {alone, with_extension})
-      if (fs::is_regular_file(masks / name, ignored)) view.mask_path = masks / name;
-    if (view.mask_path.empty())
-      return refuse(fmt::format("no mask {} or {} for view {}", with_extension, alone, view.name));
+    fs::path found;
+    for (const std::string& name : {with_extension, alone})
+      if (found.empty()) found = find_photograph(masks, name);
+    if (found.empty()) return refuse(fmt::format("no mask {} or {} for view {}", with_extension, alone, view.name));
+    view.mask_path = found;
   }
   return {};
 }

@@ -8,19 +8,25 @@
 #include <map>
 #include <vector>
 
+#include "engine/core/option.h"
 #include "engine/io/file.h"
-#include "engine/io/image_file.h"
+#include "engine/io/find_extent.h"
+#include "engine/io/find_photograph.h"
+#include "engine/io/image_size.h"
 #include "engine/io/masks.h"
 #include "engine/io/par_file.h"
 #include "engine/io/text.h"
+#include "engine/io/view_list.h"
+#include "engine/io/view_names.h"
 #include "engine/scene/check_bounds.h"
+#include "engine/scene/local_frame.h"
 
 namespace quorum {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kBoundsRemedy = "give them with --bounds \"x0 y0 z0 x1 y1 z1\"";
+std::string bounds_remedy() { return "give them with " + option_name("bounds") + " \"x0 y0 z0 x1 y1 z1\""; }
 
 std::string format_point(const Eigen::Vector3d& point) {
   return fmt::format("({:.17g} {:.17g} {:.17g})", point.x(), point.y(), point.z());
@@ -38,6 +44,8 @@ Expected<fs::path> find_par_file(const fs::path& folder) {
   fs::directory_iterator entry(folder, code);
   for (; !code && entry != fs::directory_iterator(); entry.increment(code))
     if (entry->path().filename().string().ends_with("_par.txt")) found.push_back(entry->path());
+  if (code == std::errc::not_enough_memory)
+    return failure(ErrorKind::kMemory, folder.string() + ": no memory is left to list it; give the run more");
   if (code) return path_failure(folder, "cannot be listed: " + code.message());
   if (found.empty()) return path_failure(folder, "no *_par.txt with the cameras in this folder");
   if (found.size() == 1) return found.front();
@@ -47,43 +55,51 @@ Expected<fs::path> find_par_file(const fs::path& folder) {
   return path_failure(folder, fmt::format("{} par files ({}); leave one of them", found.size(), names));
 }
 
-Expected<std::vector<View>> read_views(const fs::path& folder, const fs::path& par_file) {
-  const auto text = read_file(par_file);
-  if (!text) return std::unexpected(text.error());
-  const auto lines = parse_par_file(par_file, *text);
-  if (!lines) return std::unexpected(lines.error());
+Expected<Scene> read_views(const fs::path& folder, const fs::path& images, const fs::path& par_file) {
+  QUORUM_ASSIGN(const auto text, read_file(par_file));
+  QUORUM_ASSIGN(const auto lines, parse_par_file(par_file, text));
 
-  std::vector<View> views;
+  Scene scene;
+  std::vector<std::string> absent;
   std::map<std::string, int> line_of;
-  for (const ParLine& line : *lines) {
+  for (const ParLine& line : lines) {
     View view;
     view.image_name = line.image;
-    view.image_path = folder / line.image;
-    view.name = view.image_path.stem().string();
+    view.image_path = images.empty() ? find_photograph(folder, line.image) : find_photograph_by_end(images, line.image);
     view.camera = line.camera;
-    const auto [other, is_new] = line_of.emplace(view.name, line.number);
+    if (has_control_characters(line.image))
+      return failure_at_line(par_file, line.number, "the name of the image has control characters; rename it");
+    const auto [other, is_new] = line_of.emplace(view.image_name, line.number);
     if (!is_new)
       return failure_at_line(
           par_file, line.number,
           fmt::format("the name of image {} was taken by line {}", quote_token(line.image), other->second));
-    std::error_code ignored;
-    if (!fs::is_regular_file(view.image_path, ignored))
-      return failure_at_line(par_file, line.number,
-                             fmt::format("image {} is not in {}; add it or remove the line and lower the count",
-                                         quote_token(line.image), folder.string()));
-    views.push_back(std::move(view));
+    if (view.image_path.empty())
+      absent.push_back(line.image);
+    else
+      scene.views.push_back(std::move(view));
   }
-  if (views.size() < 3)
-    return path_failure(
-        par_file, fmt::format("holds {} views, expected 3 or more: a reference view and two neighbors", views.size()));
+  if (scene.views.size() < 3 && !absent.empty())
+    return failure_at_line(par_file, line_of.at(absent.front()),
+                           fmt::format("image {} is not in {}; add it, {} of {} are there", quote_token(absent.front()),
+                                       (images.empty() ? folder : images).string(), scene.views.size(), lines.size()));
+  if (scene.views.size() < 3)
+    return path_failure(par_file, fmt::format("holds {} views, expected 3 or more: a reference view and two neighbors",
+                                              scene.views.size()));
+  if (!absent.empty()) scene.notes.push_back(absent_note(absent, lines.size()));
+  QUORUM_TRY(name_views(scene.views));
 
-  const auto first = read_image(views.front().image_path);
-  if (!first) return std::unexpected(first.error());
-  for (View& view : views) {
-    view.width = first->width;
-    view.height = first->height;
+  std::size_t alpha_count = 0;
+  for (View& view : scene.views) {
+    QUORUM_ASSIGN(const auto header, read_image_header(view.image_path));
+    view.width = header.size.width;
+    view.height = header.size.height;
+    if (!header.has_alpha) continue;
+    view.mask_path = view.image_path;
+    ++alpha_count;
   }
-  return views;
+  if (alpha_count > 0) scene.notes.push_back(alpha_note(alpha_count));
+  return scene;
 }
 
 // --- The bounds
@@ -116,11 +132,8 @@ std::optional<Eigen::Vector3d> parse_point(std::string_view text) {
 
 /// The first two lines "(x y z)" after the words "bounding box".
 Expected<Bounds> read_bounds(const fs::path& readme) {
-  std::error_code ignored;
-  if (!fs::exists(readme, ignored)) return path_failure(readme, fmt::format("no file with bounds; {}", kBoundsRemedy));
-  const auto text = read_file(readme);
-  if (!text) return std::unexpected(text.error());
-  LineReader lines(*text);
+  QUORUM_ASSIGN(const auto text, read_file(readme));
+  LineReader lines(text);
   bool mentioned = false;
   std::vector<Eigen::Vector3d> corners;
   while (const auto line = lines.next()) {
@@ -134,28 +147,32 @@ Expected<Bounds> read_bounds(const fs::path& readme) {
     if (!corner)
       return failure_at_line(readme, lines.number(),
                              fmt::format("expected a corner of the bounding box \"(x y z)\", found {}; {}",
-                                         quote_token(*line), kBoundsRemedy));
+                                         quote_token(*line), bounds_remedy()));
     corners.push_back(*corner);
     if (corners.size() == 2) return Bounds{corners[0], corners[1]};
   }
-  return path_failure(readme, fmt::format("no \"bounding box\" with two lines \"(x y z)\"; {}", kBoundsRemedy));
+  return path_failure(readme, fmt::format("no \"bounding box\" with two lines \"(x y z)\"; {}", bounds_remedy()));
 }
 
 }  // namespace
 
-Expected<Scene> read_middlebury(const fs::path& folder, const std::optional<Bounds>& bounds, const fs::path& masks) {
-  const auto par_file = find_par_file(folder);
-  if (!par_file) return std::unexpected(par_file.error());
-  auto views = read_views(folder, *par_file);
-  if (!views) return std::unexpected(views.error());
-  Scene scene{std::move(*views), {}};
-  if (!masks.empty())
-    if (const auto found = find_masks(masks, scene.views); !found) return std::unexpected(found.error());
-  const auto box = bounds ? *bounds : read_bounds(folder / "README.txt");
-  if (!box) return std::unexpected(box.error());
-  scene.bounds = *box;
+Expected<Scene> read_middlebury(const fs::path& folder, const std::optional<Bounds>& bounds, const fs::path& masks,
+                                const fs::path& images) {
+  QUORUM_ASSIGN(const auto par_file, find_par_file(folder));
+  QUORUM_ASSIGN(auto scene, read_views(folder, images, par_file));
+  if (!masks.empty()) QUORUM_TRY(find_masks(masks, scene.views));
+  enter_local_frame(scene);
+  const fs::path readme = folder / "README.txt";
+  std::error_code ignored;
+  if (!bounds && !fs::exists(readme, ignored)) {
+    if (const auto found = find_extent(scene); !found) return std::unexpected(found.error().within(folder.string()));
+  } else {
+    QUORUM_ASSIGN(const auto box, bounds ? *bounds : read_bounds(readme));
+    scene.bounds = in_local_frame(box, scene);
+  }
   if (const auto checked = check_bounds(scene); !checked)
     return std::unexpected(checked.error().within(folder.string()));
+  if (bounds) QUORUM_TRY(find_ranges_inside(scene));
   return scene;
 }
 
@@ -166,7 +183,7 @@ Expected<void> write_middlebury(const fs::path& folder, const std::string& name,
     if (split_tokens(lines.back().image).size() != 1)
       return path_failure(view.image_path, "a par file can't name an image with a space in its name; rename it");
   }
-  if (const auto written = write_file(folder / (name + "_par.txt"), format_par_file(lines)); !written) return written;
+  QUORUM_TRY(write_file(folder / (name + "_par.txt"), format_par_file(lines)));
   return write_file(folder / "README.txt",
                     fmt::format("{}: {} views\nThe (tight) bounding box is\n{}\n{}\n", name, scene.views.size(),
                                 format_point(scene.bounds.low), format_point(scene.bounds.high)));

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/option.h"
 #include "engine/io/file.h"
 #include "engine/io/text.h"
 #include "engine/io/view_list.h"
@@ -36,6 +37,8 @@ Expected<MvsnetCamera> parse_camera(const fs::path& path, std::string_view text)
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
       const auto value = words.number<double>("a value of the extrinsic matrix");
+      if (row == 3 && value != (column == 3 ? 1.0 : 0.0))
+        words.fail("the last row of the extrinsic matrix is not 0 0 0 1");
       if (row == 3) continue;
       (column < 3 ? result.camera.camera_from_world(row, column) : result.camera.translation(row)) = value;
     }
@@ -51,7 +54,7 @@ Expected<MvsnetCamera> parse_camera(const fs::path& path, std::string_view text)
   if (!(result.near_depth > 0 && result.far_depth > result.near_depth && result.far_depth < 1e30))
     words.fail("depth_min, interval, count and depth_max give no range of depths");
   if (!words.at_end()) words.fail("more follows than a camera");
-  if (auto done = words.done(); !done) return std::unexpected(done.error());
+  QUORUM_TRY(words.done());
   if (const char* defect = camera_defect(result.camera); defect != nullptr) return path_failure(path, defect);
   if (result.camera.intrinsics(0, 1) != 0.0) return path_failure(path, "its camera has skew, which is not supported");
   return result;
@@ -71,39 +74,38 @@ Expected<std::map<int, fs::path>> list_cameras(const fs::path& folder) {
   return cameras;
 }
 
-/// The photograph of a camera's number: of its eight digits with any extension.
-Expected<fs::path> find_image(const std::vector<fs::path>& files, const fs::path& folder, const fs::path& camera) {
-  const std::string name = camera.filename().string();
-  const std::string stem = name.substr(0, name.size() - kCameraEnding.size());
+/// The photograph of a camera's number: of its eight digits with any extension. Empty if there is none.
+fs::path find_image(const std::vector<fs::path>& files, std::string_view stem) {
   const auto file = std::ranges::find(files, stem, [](const fs::path& path) { return path.stem().string(); });
-  if (file == files.end()) return path_failure(folder, fmt::format("no image {}.jpg or .png for {}", stem, name));
-  return *file;
+  return file == files.end() ? fs::path() : *file;
 }
 
 /// pair.txt: a count; then of each view its number, a count, and as many numbers with scores. view_of: by number.
-Expected<void> read_pairs(const fs::path& path, const std::map<int, int>& view_of, std::vector<View>& views) {
-  const auto text = read_file(path);
-  if (!text) return std::unexpected(text.error());
-  WordReader words(path, *text);
+/// Returns how many numbers stand there for which there is no view.
+Expected<int> read_pairs(const fs::path& path, const std::map<int, int>& view_of, std::vector<View>& views) {
+  QUORUM_ASSIGN(const auto text, read_file(path));
+  WordReader words(path, text);
+  int unknown = 0;
   const auto place_of = [&](int number) {
     const auto place = view_of.find(number);
-    if (place != view_of.end()) return place->second;
-    words.fail(fmt::format("view {} has no camera", number));
-    return 0;
+    if (place == view_of.end() && !words.failed()) ++unknown;
+    return place != view_of.end() ? place->second : -1;
   };
   const int count = words.number<int>("the count of views");
   for (int i = 0; i < count && !words.failed(); ++i) {
-    View& view = views[static_cast<std::size_t>(place_of(words.number<int>("the number of a view")))];
-    view.neighbors.clear();
+    const int reference = place_of(words.number<int>("the number of a view"));
+    std::vector<int> found;
     const int neighbors = words.number<int>("the count of neighbors");
     for (int k = 0; k < neighbors && !words.failed(); ++k) {
       const int neighbor = place_of(words.number<int>("the number of a neighbor"));
       words.number<double>("a score");
-      if (&views[static_cast<std::size_t>(neighbor)] == &view) words.fail("a view is its own neighbor");
-      if (std::ranges::count(view.neighbors, neighbor) == 0) view.neighbors.push_back(neighbor);
+      if (neighbor >= 0 && neighbor == reference) words.fail("a view is its own neighbor");
+      if (neighbor >= 0 && std::ranges::count(found, neighbor) == 0) found.push_back(neighbor);
     }
+    if (reference >= 0) views[static_cast<std::size_t>(reference)].neighbors = std::move(found);
   }
-  return words.done();
+  QUORUM_TRY(words.done());
+  return unknown;
 }
 
 /// The depth range of a view, or that of the bounds.
@@ -117,7 +119,8 @@ Expected<std::pair<double, double>> depth_range(const View& view, const Bounds& 
     far = std::max(far, depth);
   }
   if (far <= 0)
-    return failure(ErrorKind::kInput, fmt::format("{}: the bounds lie behind this camera; check --roi", view.name));
+    return failure(ErrorKind::kInput,
+                   fmt::format("{}: the bounds lie behind this camera; check {}", view.name, option_name("roi")));
   return std::pair(std::max(near, 1e-3 * far), far);
 }
 
@@ -149,21 +152,17 @@ std::string pair_text(const Scene& scene) {
 
 std::string mvsnet_name(std::size_t number) { return fmt::format("{:08}", number); }
 
-Expected<void> write_mvsnet(const fs::path& folder, const Scene& scene) {
-  if (auto made = make_folder(folder / "cams"); !made) return made;
+Expected<void> write_mvsnet(OutputFolder& output, const Scene& scene) {
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    const auto range = depth_range(scene.views[i], scene.bounds);
-    if (!range) return std::unexpected(range.error());
-    const std::string text = camera_text(scene.views[i].camera, range->first, range->second);
-    const fs::path path = folder / "cams" / (mvsnet_name(i) + std::string(kCameraEnding));
-    if (auto written = write_file(path, text); !written) return written;
+    QUORUM_ASSIGN(const auto range, depth_range(scene.views[i], scene.bounds));
+    const std::string text = camera_text(scene.views[i].camera, range.first, range.second);
+    QUORUM_TRY(output.write(fs::path("cams") / (mvsnet_name(i) + std::string(kCameraEnding)), text));
   }
-  return write_file(folder / "pair.txt", pair_text(scene));
+  return output.write("pair.txt", pair_text(scene));
 }
 
 Expected<Scene> read_mvsnet(const fs::path& folder, const fs::path& images) {
-  const auto cameras = list_cameras(folder / "cams");
-  if (!cameras) return std::unexpected(cameras.error());
+  QUORUM_ASSIGN(const auto cameras, list_cameras(folder / "cams"));
   const fs::path image_folder = images.empty() ? folder / "images" : images;
   std::vector<fs::path> files;
   std::error_code code;
@@ -175,32 +174,38 @@ Expected<Scene> read_mvsnet(const fs::path& folder, const fs::path& images) {
   ViewList list;
   std::vector<MvsnetCamera> parsed;
   std::map<int, int> view_of;
-  for (const auto& [number, path] : *cameras) {
-    const auto text = read_file(path);
-    if (!text) return std::unexpected(text.error());
-    const auto camera = parse_camera(path, *text);
-    if (!camera) return std::unexpected(camera.error());
-    const auto image = find_image(files, image_folder, path);
-    if (!image) return std::unexpected(image.error());
+  for (const auto& [number, path] : cameras) {
+    QUORUM_ASSIGN(const auto text, read_file(path));
+    QUORUM_ASSIGN(const auto camera, parse_camera(path, text));
+    const std::string name = path.filename().string();
+    const std::string stem = name.substr(0, name.size() - kCameraEnding.size());
+    const fs::path image = find_image(files, stem);
     Lens lens;
-    const Eigen::Matrix3d& k = camera->camera.intrinsics;
+    const Eigen::Matrix3d& k = camera.camera.intrinsics;
     lens.focal = {k(0, 0), k(1, 1)};
     lens.principal = {k(0, 2) - 0.5, k(1, 2) - 0.5};
-    if (auto added = list.add(image->filename().string(), *image, camera->camera, lens); !added)
-      return std::unexpected(added.error().within(folder.string()));
-    view_of.emplace(number, static_cast<int>(parsed.size()));
-    parsed.push_back(*camera);
+    const auto view = list.add(image.empty() ? stem : image.filename().string(), image, camera.camera, lens);
+    if (!view) return std::unexpected(view.error().within(folder.string()));
+    if (*view < 0) continue;
+    view_of.emplace(number, *view);
+    parsed.push_back(camera);
   }
-  auto views = list.finish();
-  if (!views) return std::unexpected(views.error().within(folder.string()));
+  auto scene = list.finish();
+  if (!scene) return std::unexpected(scene.error().within(folder.string()));
   for (std::size_t i = 0; i < parsed.size(); ++i) {
-    (*views)[i].near_depth = parsed[i].near_depth;
-    (*views)[i].far_depth = parsed[i].far_depth;
+    scene->views[i].near_depth = parsed[i].near_depth;
+    scene->views[i].far_depth = parsed[i].far_depth;
   }
   std::error_code ignored;
-  if (fs::exists(folder / "pair.txt", ignored))
-    if (auto read = read_pairs(folder / "pair.txt", view_of, *views); !read) return std::unexpected(read.error());
-  return Scene{std::move(*views), {}};
+  for (const fs::path& pairs : {folder / "pair.txt", folder / "cams" / "pair.txt"}) {
+    if (!fs::exists(pairs, ignored)) continue;
+    QUORUM_ASSIGN(const auto unknown, read_pairs(pairs, view_of, scene->views));
+    if (unknown > 0)
+      scene->notes.push_back(fmt::format("{}: {} numbers of views that are not in the scene are left out",
+                                         pairs.filename().string(), unknown));
+    break;
+  }
+  return scene;
 }
 
 }  // namespace quorum

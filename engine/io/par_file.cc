@@ -32,7 +32,13 @@ Camera camera_of(const std::array<double, kNumberCount>& numbers) {
   return camera;
 }
 
-Expected<ParLine> parse_view(const std::filesystem::path& path, int line, const std::vector<std::string_view>& tokens) {
+/// The last 21 fields are numbers; what stands before them is the name, which may have spaces in it.
+Expected<ParLine> parse_view(const std::filesystem::path& path, int line, std::vector<std::string_view> tokens) {
+  if (tokens.size() > kNumberCount + 1 && !parse_number<double>(tokens[tokens.size() - kNumberCount - 1])) {
+    const std::string_view last = tokens[tokens.size() - kNumberCount - 1];
+    tokens.erase(tokens.begin() + 1, tokens.end() - kNumberCount);
+    tokens[0] = {tokens[0].data(), static_cast<std::size_t>(last.data() + last.size() - tokens[0].data())};
+  }
   if (tokens.size() != kNumberCount + 1)
     return failure_at_line(path, line, fmt::format("expected {} fields, found {}", kNumberCount + 1, tokens.size()));
   std::array<double, kNumberCount> numbers = {};
@@ -66,9 +72,8 @@ Expected<std::vector<ParLine>> parse_par_file(const std::filesystem::path& path,
     if (count || is_column_header(tokens)) line = lines.next_filled();
   }
   for (; line; line = lines.next_filled()) {
-    auto view = parse_view(path, lines.number(), split_tokens(*line));
-    if (!view) return std::unexpected(view.error());
-    views.push_back(std::move(*view));
+    QUORUM_ASSIGN(auto view, parse_view(path, lines.number(), split_tokens(*line)));
+    views.push_back(std::move(view));
   }
   if (count && *count != views.size())
     return failure_at_line(

@@ -1,7 +1,5 @@
 #include "engine/io/patch_match_cfg.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -28,40 +26,37 @@ std::optional<std::string_view> next_entry(LineReader& lines) {
 
 }  // namespace
 
-Expected<void> read_patch_match_cfg(const std::filesystem::path& path, std::vector<View>& views) {
-  const auto text = read_file(path);
-  if (!text) return std::unexpected(text.error());
+Expected<int> read_patch_match_cfg(const std::filesystem::path& path, std::vector<View>& views) {
+  QUORUM_ASSIGN(const auto text, read_file(path));
   std::map<std::string, int, std::less<>> view_of;
   for (std::size_t i = 0; i < views.size(); ++i) view_of.emplace(views[i].image_name, static_cast<int>(i));
-  LineReader lines(*text);
-  const auto find = [&](std::string_view name) -> Expected<int> {
+  LineReader lines(text);
+  int unknown = 0;
+  const auto find = [&](std::string_view name) {
     const auto place = view_of.find(name);
-    if (place != view_of.end()) return place->second;
-    return failure_at_line(path, lines.number(), fmt::format("the model has no image {}", quote_token(name)));
+    if (place == view_of.end()) ++unknown;
+    return place != view_of.end() ? place->second : -1;
   };
   while (const auto name = next_entry(lines)) {
-    const auto reference = find(*name);
-    if (!reference) return std::unexpected(reference.error());
+    const int reference = find(*name);
     const auto sources = next_entry(lines);
-    if (!sources)
-      return failure_at_line(path, lines.number(), fmt::format("no line with sources follows {}", quote_token(*name)));
-    std::vector<int>& neighbors = views[static_cast<std::size_t>(*reference)].neighbors;
-    neighbors.clear();
-    if (sources->starts_with("__auto__")) continue;
+    if (!sources) break;  // as COLMAP reads it
+    std::vector<int> neighbors;
     if (*sources == "__all__") {
       for (int view = 0; view < static_cast<int>(views.size()); ++view)
-        if (view != *reference) neighbors.push_back(view);
-      continue;
+        if (view != reference) neighbors.push_back(view);
+    } else if (!sources->starts_with("__auto__")) {
+      for (std::size_t begin = 0; begin <= sources->size();) {
+        const std::size_t end = std::min(sources->find(',', begin), sources->size());
+        const int source = find(trimmed(sources->substr(begin, end - begin)));
+        if (source >= 0 && source != reference && std::ranges::count(neighbors, source) == 0)
+          neighbors.push_back(source);
+        begin = end + 1;
+      }
     }
-    for (std::size_t begin = 0; begin <= sources->size();) {
-      const std::size_t end = std::min(sources->find(',', begin), sources->size());
-      const auto source = find(trimmed(sources->substr(begin, end - begin)));
-      if (!source) return std::unexpected(source.error());
-      if (*source != *reference && std::ranges::count(neighbors, *source) == 0) neighbors.push_back(*source);
-      begin = end + 1;
-    }
+    if (reference >= 0) views[static_cast<std::size_t>(reference)].neighbors = std::move(neighbors);
   }
-  return {};
+  return unknown;
 }
 
 }  // namespace quorum

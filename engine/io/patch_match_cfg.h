@@ -10,8 +10,9 @@
 namespace quorum {
 
 /// Sets the neighbors of views from pairs of lines: an image, then __auto__, N (left to view selection), __all__, or
-/// images with commas between. # begins a comment. Views that are not named keep what they have. Fails (kInput), naming
-/// file and line, if an image is not in the scene or the second line of a pair is missing.
-Expected<void> read_patch_match_cfg(const std::filesystem::path& path, std::vector<View>& views);
+/// images with commas between. # begins a comment. Views that are not named keep what they have; so does the last one
+/// if its second line is missing. Returns how many names stand there that are not in the scene, which are left out.
+/// Fails (kInput) if the file can't be read.
+Expected<int> read_patch_match_cfg(const std::filesystem::path& path, std::vector<View>& views);
 
 }  // namespace quorum

@@ -51,34 +51,32 @@ Expected<Header> read_header(const std::filesystem::path& path, std::string_view
 }
 
 template <typename Value>
-Expected<void> write_map(const std::filesystem::path& path, const char* kind, const Grid<Value>& map) {
+std::string bytes_of(const char* kind, const Grid<Value>& map) {
   std::string bytes = fmt::format("{}\n{} {}\n-1.0\n", kind, map.width, map.height);
   bytes.reserve(bytes.size() + map.values.size() * sizeof(Value));
   for (int y = map.height - 1; y >= 0; --y)
     bytes.append(reinterpret_cast<const char*>(map.row(y)), static_cast<std::size_t>(map.width) * sizeof(Value));
-  return write_file(path, bytes);
+  return bytes;
 }
 
 template <typename Value>
 Expected<Grid<Value>> read_map(const std::filesystem::path& path, std::string_view kind, const Value& zero) {
-  const auto bytes = read_file(path);
-  if (!bytes) return std::unexpected(bytes.error());
-  const auto header = read_header(path, *bytes, kind);
-  if (!header) return std::unexpected(header.error());
+  QUORUM_ASSIGN(const auto bytes, read_file(path));
+  QUORUM_ASSIGN(const auto header, read_header(path, bytes, kind));
 
-  const std::uint64_t expected = sizeof(Value) * static_cast<std::uint64_t>(header->width) * header->height;
-  const std::uint64_t found = bytes->size() - header->size;
+  const std::uint64_t expected = sizeof(Value) * static_cast<std::uint64_t>(header.width) * header.height;
+  const std::uint64_t found = bytes.size() - header.size;
   if (found != expected)
     return failure_at_line(path, 2,
-                           fmt::format("{} x {} values take {} bytes after the header, found {}", header->width,
-                                       header->height, expected, found));
+                           fmt::format("{} x {} values take {} bytes after the header, found {}", header.width,
+                                       header.height, expected, found));
 
-  Grid<Value> map(header->width, header->height, zero);
+  Grid<Value> map(header.width, header.height, zero);
   const std::size_t row_size = static_cast<std::size_t>(map.width) * sizeof(Value);
   for (int y = 0; y < map.height && row_size > 0; ++y) {
     auto* row = reinterpret_cast<unsigned char*>(map.row(map.height - 1 - y));
-    std::memcpy(row, bytes->data() + header->size + row_size * static_cast<std::size_t>(y), row_size);
-    if (!header->big_endian) continue;
+    std::memcpy(row, bytes.data() + header.size + row_size * static_cast<std::size_t>(y), row_size);
+    if (!header.big_endian) continue;
     for (std::size_t word = 0; word < row_size; word += 4) std::reverse(row + word, row + word + 4);
   }
   return map;
@@ -86,13 +84,19 @@ Expected<Grid<Value>> read_map(const std::filesystem::path& path, std::string_vi
 
 }  // namespace
 
+std::string pfm_bytes(const Grid<float>& map) { return bytes_of("Pf", map); }
+
+std::string pfm_bytes(const Grid<Eigen::Vector3f>& map) {
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  return bytes_of("PF", map);
+}
+
 Expected<void> write_pfm(const std::filesystem::path& path, const Grid<float>& map) {
-  return write_map(path, "Pf", map);
+  return write_file(path, pfm_bytes(map));
 }
 
 Expected<void> write_pfm(const std::filesystem::path& path, const Grid<Eigen::Vector3f>& map) {
-  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-  return write_map(path, "PF", map);
+  return write_file(path, pfm_bytes(map));
 }
 
 Expected<Grid<float>> read_pfm(const std::filesystem::path& path) { return read_map(path, "Pf", 0.0F); }

@@ -3,11 +3,16 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <string>
 
 #include "engine/core/error.h"
 #include "engine/core/grid.h"
 
 namespace quorum {
+
+/// A little-endian PFM of one channel, or of three. A map without values gives a size of 0.
+std::string pfm_bytes(const Grid<float>& map);
+std::string pfm_bytes(const Grid<Eigen::Vector3f>& map);
 
 /// Writes a one-channel little-endian PFM through a temporary file. A map without values gives a file with a size of
 /// 0. Fails (kInput) if the file can't be written.

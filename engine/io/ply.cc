@@ -15,6 +15,7 @@
 #include "engine/io/ply_header.h"
 #include "engine/io/ply_values.h"
 #include "engine/io/text.h"
+#include "engine/scene/local_frame.h"
 
 namespace quorum {
 namespace {
@@ -55,12 +56,14 @@ struct Columns {
     std::ranges::transform(names, index.begin(), [&element](const char* name) { return element.find(name); });
   }
   [[nodiscard]] bool complete() const { return std::ranges::min(index) >= 0; }
-  [[nodiscard]] Eigen::Vector3f of(const Row& row) const {
-    return Eigen::Vector3d(row[index[0]][0], row[index[1]][0], row[index[2]][0]).cast<float>();
+  [[nodiscard]] Eigen::Vector3d of(const Row& row) const {
+    return {row[index[0]][0], row[index[1]][0], row[index[2]][0]};
   }
 };
 
-void read_vertices(PlyValues& values, const PlyElement& element, std::vector<Vertex>& vertices) {
+/// positions: of the vertices, as the file gives them.
+void read_vertices(PlyValues& values, const PlyElement& element, std::vector<Vertex>& vertices,
+                   std::vector<Eigen::Vector3d>& positions) {
   const Columns position(element, {"x", "y", "z"});
   const Columns normal(element, {"nx", "ny", "nz"});
   const Columns color(element, {"red", "green", "blue"});
@@ -71,12 +74,13 @@ void read_vertices(PlyValues& values, const PlyElement& element, std::vector<Ver
     return value > 0 ? static_cast<std::uint32_t>(std::min(value, 255.0) + 0.5) : 0U;
   };
   vertices.reserve(element.count);
+  positions.reserve(element.count);
   for_each_row(values, element, [&](const Row& row) {
     Vertex vertex;
-    vertex.position = position.of(row);
-    if (!vertex.position.allFinite())
+    positions.push_back(position.of(row));
+    if (!positions.back().cast<float>().allFinite())
       values.fail(fmt::format("the position of vertex {} is not finite", vertices.size()));
-    if (normal.complete()) vertex.normal = normal.of(row);
+    if (normal.complete()) vertex.normal = normal.of(row).cast<float>();
     if (!vertex.normal.allFinite()) vertex.normal.setZero();
     if (color.complete())
       vertex.color = make_rgb(to_byte(color.index[0], row), to_byte(color.index[1], row), to_byte(color.index[2], row));
@@ -109,6 +113,18 @@ void read_faces(PlyValues& values, const PlyElement& element, std::uint64_t vert
   });
 }
 
+/// The offset that a mesh with these positions had best.
+Eigen::Vector3d offset_of(const std::vector<Eigen::Vector3d>& positions) {
+  if (positions.empty()) return Eigen::Vector3d::Zero();
+  Eigen::Vector3d low = positions.front();
+  Eigen::Vector3d high = low;
+  for (const Eigen::Vector3d& position : positions) {
+    low = low.cwiseMin(position);
+    high = high.cwiseMax(position);
+  }
+  return far_offset((low + high) / 2.0, (high - low).norm() / 2.0);
+}
+
 template <typename T>
 void append(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
@@ -120,25 +136,36 @@ void append(std::string& bytes, const Eigen::Vector3f& vector) {
 
 }  // namespace
 
-Expected<void> write_ply(const std::filesystem::path& path, const Mesh& mesh) {
+Expected<std::string> encode_ply(const Mesh& mesh, PlyFrame frame) {
   constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
   if (mesh.vertices.size() > kMost || mesh.triangles.size() > kMost)
     return failure(ErrorKind::kInput,
-                   fmt::format("{}: {} vertices and {} triangles are more than PLY can index; choose larger voxels",
-                               path.string(), mesh.vertices.size(), mesh.triangles.size()));
-  std::string bytes = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.vertices.size());
-  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) bytes += fmt::format("property float {}\n", name);
+                   fmt::format("{} vertices and {} triangles are more than PLY can index; choose larger voxels",
+                               mesh.vertices.size(), mesh.triangles.size()));
+  const bool is_far = !mesh.offset.isZero(0.0);
+  const bool in_double = is_far && frame == PlyFrame::kWorld;
+  std::string bytes = "ply\nformat binary_little_endian 1.0\n";
+  if (is_far)
+    bytes += fmt::format("comment {} {} {} {}\n", in_double ? "taken off while this was made:" : "offset",
+                         mesh.offset.x(), mesh.offset.y(), mesh.offset.z());
+  bytes += fmt::format("element vertex {}\n", mesh.vertices.size());
+  for (const char* name : {"x", "y", "z"})
+    bytes += fmt::format("property {} {}\n", in_double ? "double" : "float", name);
+  for (const char* name : {"nx", "ny", "nz"}) bytes += fmt::format("property float {}\n", name);
   for (const char* name : {"red", "green", "blue"}) bytes += fmt::format("property uchar {}\n", name);
   for (const char* name : {"confidence", "quality"}) bytes += fmt::format("property float {}\n", name);
   if (!mesh.triangles.empty())
     bytes += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", mesh.triangles.size());
   bytes += "end_header\n";
 
-  constexpr std::size_t kVertexSize = 8 * sizeof(float) + 3;
+  const std::size_t vertex_size = (in_double ? 11 : 8) * sizeof(float) + 3;
   constexpr std::size_t kFaceSize = 1 + 3 * sizeof(std::int32_t);
-  bytes.reserve(bytes.size() + mesh.vertices.size() * kVertexSize + mesh.triangles.size() * kFaceSize);
+  bytes.reserve(bytes.size() + mesh.vertices.size() * vertex_size + mesh.triangles.size() * kFaceSize);
   for (const Vertex& vertex : mesh.vertices) {
-    append(bytes, vertex.position);
+    if (in_double)
+      for (const double value : mesh.offset + vertex.position.cast<double>()) append(bytes, value);
+    else
+      append(bytes, vertex.position);
     append(bytes, vertex.normal);
     for (const std::uint32_t level : {red_of(vertex.color), green_of(vertex.color), blue_of(vertex.color)})
       append(bytes, static_cast<std::uint8_t>(level));
@@ -149,24 +176,29 @@ Expected<void> write_ply(const std::filesystem::path& path, const Mesh& mesh) {
     append(bytes, std::uint8_t{3});
     for (const std::uint32_t corner : triangle) append(bytes, corner);
   }
-  return write_file(path, bytes);
+  return bytes;
 }
 
-Expected<Mesh> read_ply(const std::filesystem::path& path) {
-  const auto bytes = read_file(path);
-  if (!bytes) return std::unexpected(bytes.error());
-  const auto header = read_ply_header(path, *bytes);
-  if (!header) return std::unexpected(header.error());
+Expected<void> write_ply(const std::filesystem::path& path, const Mesh& mesh, PlyFrame frame) {
+  const auto bytes = encode_ply(mesh, frame);
+  if (!bytes) return std::unexpected(bytes.error().within(path.string()));
+  return write_file(path, *bytes);
+}
+
+Expected<Mesh> read_ply(const std::filesystem::path& path, const std::optional<Eigen::Vector3d>& offset) {
+  QUORUM_ASSIGN(const auto bytes, read_file(path));
+  QUORUM_ASSIGN(const auto header, read_ply_header(path, bytes));
 
   Mesh mesh;
-  const std::unique_ptr<PlyValues> values = make_ply_values(path, *bytes, *header);
-  const std::uint64_t vertex_count = header->find("vertex")->count;
-  for (const PlyElement& element : header->elements) {
+  std::vector<Eigen::Vector3d> positions;
+  const std::unique_ptr<PlyValues> values = make_ply_values(path, bytes, header);
+  const std::uint64_t vertex_count = header.find("vertex")->count;
+  for (const PlyElement& element : header.elements) {
     if (!values->may_hold(element))
       values->fail(fmt::format("{} rows of element {} do not fit into the rest of the file", element.count,
                                quote_token(element.name)));
     else if (element.name == "vertex")
-      read_vertices(*values, element, mesh.vertices);
+      read_vertices(*values, element, mesh.vertices, positions);
     else if (element.name == "face")
       read_faces(*values, element, vertex_count, mesh.triangles);
     else
@@ -175,6 +207,9 @@ Expected<Mesh> read_ply(const std::filesystem::path& path) {
   }
   values->end_file();
   if (!values->ok()) return std::unexpected(values->error());
+  const Eigen::Vector3d found = offset ? *offset - header.offset : offset_of(positions);
+  for (std::size_t i = 0; i < positions.size(); ++i) mesh.vertices[i].position = (positions[i] - found).cast<float>();
+  mesh.offset = header.offset + found;
   return mesh;
 }
 

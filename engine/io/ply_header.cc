@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/io/text.h"
 
@@ -57,9 +58,23 @@ std::string parse_property(const Tokens& tokens, PlyHeader& header) {
   return "";
 }
 
+/// Comments are free text; one that only looks like an offset is none.
+std::string take_offset(const Tokens& tokens, PlyHeader& header) {
+  if (tokens.size() != 5 || tokens[1] != "offset") return "";
+  Eigen::Vector3d offset;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto value = parse_number<double>(tokens[axis + 2]);
+    if (!value || !std::isfinite(*value)) return "";
+    offset(static_cast<Eigen::Index>(axis)) = *value;
+  }
+  header.offset = offset;
+  return "";
+}
+
 std::string parse_header_line(const Tokens& tokens, PlyHeader& header) {
   const std::string_view keyword = tokens.empty() ? "" : tokens[0];
-  if (keyword == "comment" || keyword == "obj_info") return "";
+  if (keyword == "comment") return take_offset(tokens, header);
+  if (keyword == "obj_info") return "";
   if (keyword == "format") return parse_format(tokens, header);
   if (keyword == "element") return parse_element(tokens, header);
   if (keyword == "property") return parse_property(tokens, header);

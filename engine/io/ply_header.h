@@ -1,6 +1,7 @@
 // The header of a PLY file: its format, and elements with their properties.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -56,7 +57,8 @@ enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
 struct PlyHeader {
   std::optional<PlyFormat> format;
   std::vector<PlyElement> elements;
-  std::size_t size = 0;  ///< bytes
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< to be added to positions: "comment offset x y z"
+  std::size_t size = 0;                              ///< bytes
   int lines = 0;
 
   [[nodiscard]] const PlyElement* find(std::string_view element) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "engine/core/grid.h"
 #include "engine/image/image.h"
@@ -12,6 +13,17 @@ namespace quorum {
 /// percentile of the depths, beyond them as at them. Black where there is no depth (0, negative or not finite). Empty
 /// for an empty map.
 ColorImage color_map_depth(const Grid<float>& depth);
+
+/// Every n-th pixel of every n-th row, so that no row has more than `most` pixels. Empty for an empty map.
+template <typename Value>
+Grid<Value> thin_out(const Grid<Value>& map, int most) {
+  if (map.empty()) return map;
+  const int step = std::max(1, (map.width + most - 1) / most);
+  Grid<Value> thin((map.width + step - 1) / step, (map.height + step - 1) / step, map.values[0]);
+  for (int y = 0; y < thin.height; ++y)
+    for (int x = 0; x < thin.width; ++x) thin.at(x, y) = map.at(x * step, y * step);
+  return thin;
+}
 
 /// A map of values from 0 (black) to 1 (white) in gray, as in the paper's figure 2. Values outside are clamped; what is
 /// not a number is black. Empty for an empty map.

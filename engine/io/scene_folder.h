@@ -13,7 +13,20 @@
 namespace quorum {
 
 /// kAutomatic: what the folder shows.
-enum class SceneFormat { kAutomatic, kMiddlebury, kColmap, kTransforms, kMvsnet, kBundler };
+enum class SceneFormat {
+  kAutomatic,
+  kMiddlebury,
+  kColmap,
+  kTransforms,
+  kMvsnet,
+  kBundler,
+  kOpenMvg,
+  kOpenSfm,
+  kMeshroom,
+  kMetashape,
+  kRealityCapture,
+  kVisualSfm
+};
 
 /// The formats under the names that --format takes, "auto" first.
 std::vector<std::pair<std::string_view, SceneFormat>> scene_format_names();
@@ -24,12 +37,14 @@ struct SceneOptions {
   std::filesystem::path roi;     ///< or those of this file (read_roi); empty = none
   std::filesystem::path masks;   ///< folder with a mask for each image (find_masks); empty = none
   std::filesystem::path images;  ///< folder of the photographs, where it is not beside the cameras; empty = look there
-  int max_image_size = 0;        ///< photographs that are wider or higher are halved until they are not; 0 = keep all
+  std::filesystem::path model;  ///< of several in a COLMAP scene the one to read, such as sparse/1; empty = the largest
+  int max_image_size = 0;       ///< photographs that are wider or higher are halved until they are not; 0 = keep all
 };
 
 /// The format of the scene in a folder: Middlebury if it holds a *_par.txt, COLMAP if it holds a model
 /// (find_colmap_model), nerfstudio if it holds transforms.json, MVSNet if it holds a folder cams, Bundler if it holds a
-/// bundle (find_bundle), in this order. Fails (kInput) if it is no folder, or holds none of them.
+/// bundle (find_bundle), or the first of sfm_formats() that it holds a file of, in this order. Fails (kInput) if it is
+/// no folder, or holds none of them.
 Expected<SceneFormat> recognize_format(const std::filesystem::path& folder);
 
 /// A box from a file: that of the vertices of a .ply file, or the six numbers x0 y0 z0 x1 y1 z1 of a text, in which

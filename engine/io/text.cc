@@ -42,7 +42,13 @@ std::string quote_token(std::string_view token) {
 }
 
 bool has_control_characters(std::string_view text) {
-  return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < ' '; });
+  unsigned char before = 0;
+  for (const char each : text) {
+    const auto c = static_cast<unsigned char>(each);
+    if (c < ' ' || c == 0x7f || (before == 0xc2 && c < 0xa0)) return true;
+    before = c;
+  }
+  return false;
 }
 
 std::unexpected<Error> path_failure(const std::filesystem::path& path, std::string_view message) {

@@ -1,7 +1,6 @@
 // Lines, tokens and numbers of text files, and failures that name a line.
 #pragma once
 
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
+#include "engine/core/parse_number.h"
 
 namespace quorum {
 
@@ -18,20 +18,11 @@ inline constexpr std::string_view kTextSpace = " \t\r\f\v";
 /// Tokens of a line.
 std::vector<std::string_view> split_tokens(std::string_view line);
 
-/// The number that a whole token spells, independent of the locale; nothing if it spells none or is out of T's range.
-template <typename T>
-std::optional<T> parse_number(std::string_view token) {
-  T value{};
-  const char* end = token.data() + token.size();
-  const auto [parsed_end, code] = std::from_chars(token.data(), end, value);
-  if (code != std::errc() || parsed_end != end) return std::nullopt;
-  return value;
-}
-
 /// Walks over the lines of a text; they end with LF or CRLF, the last one also with the text.
 class LineReader {
  public:
-  explicit LineReader(std::string_view text) : text_(text) {}
+  /// A byte order mark, as editors on Windows write it, is passed over.
+  explicit LineReader(std::string_view text) : text_(text), position_(text.starts_with("\xef\xbb\xbf") ? 3 : 0) {}
 
   /// The next line without its end, or nothing after the last one.
   std::optional<std::string_view> next();
@@ -51,7 +42,8 @@ class LineReader {
 /// A token in quotes for a message: cut after 40 characters, with question marks for what can't be printed.
 std::string quote_token(std::string_view token);
 
-/// True if a text can't be shown on one line, as no sane name of a file is.
+/// True if a text can't be shown on one line, as no sane name of a file is: ASCII's control characters and U+0080 to
+/// U+009F.
 bool has_control_characters(std::string_view text);
 
 /// Failure (kInput) "path: message".

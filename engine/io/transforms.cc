@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "engine/camera/pose.h"
 #include "engine/io/file.h"
+#include "engine/io/find_photograph.h"
 #include "engine/io/image_size.h"
+#include "engine/io/json_values.h"
+#include "engine/io/ply.h"
+#include "engine/io/sfm_scene.h"
 #include "engine/io/text.h"
+#include "engine/io/transforms_lens.h"
 #include "engine/io/view_list.h"
 
 namespace quorum {
@@ -18,129 +23,162 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-struct Frame {
-  std::string name;
-  Camera pose;
-  const Json* values = nullptr;
-};
-
-/// A value of a frame, or else of the file.
-class Values {
- public:
-  Values(const Json& frame, const Json& file) : frame_(frame), file_(file) {}
-
-  /// Nothing if it is in neither, or no number.
-  [[nodiscard]] std::optional<double> number(const char* name) const {
-    for (const Json* source : {&frame_, &file_})
-      if (const auto place = source->find(name); place != source->end())
-        return place->is_number() ? std::optional<double>(place->get<double>()) : std::nullopt;
-    return std::nullopt;
-  }
-  [[nodiscard]] std::string word(const char* name) const {
-    for (const Json* source : {&frame_, &file_})
-      if (const auto place = source->find(name); place != source->end() && place->is_string())
-        return place->get<std::string>();
-    return {};
-  }
-
- private:
-  const Json& frame_;
-  const Json& file_;
-};
-
-/// Camera to world in OpenGL's axes becomes world to camera in ours.
-std::optional<Camera> pose_of(const Json& frame) {
+/// The numbers of a transform_matrix, whose last row may be missing.
+Expected<Eigen::Matrix4d> matrix_of(const Json& frame) {
+  const auto no_matrix = failure(ErrorKind::kInput, "transform_matrix is no 4 x 4 matrix of numbers");
   const auto rows = frame.find("transform_matrix");
-  if (rows == frame.end() || !rows->is_array() || rows->size() < 3) return std::nullopt;
-  Eigen::Matrix3d world_from_camera;
-  Eigen::Vector3d center;
-  for (int row = 0; row < 3; ++row) {
-    const Json& values = (*rows)[static_cast<std::size_t>(row)];
-    if (!values.is_array() || values.size() != 4) return std::nullopt;
-    for (int column = 0; column < 4; ++column) {
-      const Json& value = values[static_cast<std::size_t>(column)];
-      if (!value.is_number()) return std::nullopt;
-      (column < 3 ? world_from_camera(row, column) : center(row)) = value.get<double>();
-    }
+  if (rows == frame.end() || !rows->is_array() || rows->size() < 3 || rows->size() > 4) return no_matrix;
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  for (int row = 0; row < static_cast<int>(rows->size()); ++row) {
+    const auto values = JsonObject::vector_of<4>((*rows)[static_cast<std::size_t>(row)]);
+    if (!values) return no_matrix;
+    matrix.row(row) = *values;
   }
+  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+    return failure(ErrorKind::kInput,
+                   "the last row of its transform_matrix is not 0 0 0 1; divide by its last number, "
+                   "or transpose it if it is written column by column");
+  return matrix;
+}
+
+/// Camera to world in OpenGL's axes becomes world to camera in ours. A scale of the axes, as programs export that scale
+/// the camera as an object, moves no ray; scaled says whether there was one.
+Expected<Camera> pose_of(const Json& frame, bool& scaled) {
+  constexpr double kTolerance = 1e-3;  // of camera_defect
+  QUORUM_ASSIGN(const Eigen::Matrix4d matrix, matrix_of(frame));
+  Eigen::Matrix3d world_from_camera = matrix.topLeftCorner<3, 3>();
+  const Eigen::RowVector3d lengths = world_from_camera.colwise().norm();
+  scaled = lengths.minCoeff() > 0.0 && (lengths.array() - 1.0).abs().maxCoeff() > kTolerance / 4;
+  if (scaled)
+    for (int column = 0; column < 3; ++column) world_from_camera.col(column) /= lengths(column);
+  if (world_from_camera.determinant() < 0)
+    return failure(ErrorKind::kInput,
+                   "its transform_matrix mirrors, as that of left-handed coordinates does (Unity, "
+                   "Unreal): turn an axis of the world around, and the same axis of the cameras");
   world_from_camera.col(1) *= -1.0;
   world_from_camera.col(2) *= -1.0;
   Camera camera;
   camera.camera_from_world = world_from_camera.transpose();
-  camera.translation = translation_of_center(camera.camera_from_world, center);
+  camera.translation = translation_of_center(camera.camera_from_world, matrix.topRightCorner<3, 1>());
   return camera;
 }
 
-/// size: of the photograph.
-Expected<Lens> lens_of(const Values& values, ImageSize size) {
-  Lens lens;
-  const auto width = values.number("w");
-  const auto height = values.number("h");
-  lens.width = width ? static_cast<int>(std::clamp(*width, 0.0, 1e6)) : size.width;
-  lens.height = height ? static_cast<int>(std::clamp(*height, 0.0, 1e6)) : size.height;
-  auto focal_x = values.number("fl_x");
-  if (const auto angle = values.number("camera_angle_x"); !focal_x && angle)
-    focal_x = 0.5 * lens.width / std::tan(0.5 * *angle);
-  if (!focal_x) return failure(ErrorKind::kInput, "neither fl_x nor camera_angle_x is a number");
-  lens.focal = {*focal_x, values.number("fl_y").value_or(*focal_x)};
-  lens.principal = {values.number("cx").value_or(lens.width / 2.0) - 0.5,
-                    values.number("cy").value_or(lens.height / 2.0) - 0.5};
-  const auto coefficient = [&values](const char* name) { return values.number(name).value_or(0.0); };
-  if (values.word("camera_model") == "OPENCV_FISHEYE") {
-    lens.model = Lens::Model::kFisheye;
-    lens.coefficients = {coefficient("k1"), coefficient("k2"), coefficient("k3"), coefficient("k4")};
-  } else {
-    lens.coefficients = {coefficient("k1"), coefficient("k2"), coefficient("p1"), coefficient("p2"), coefficient("k3")};
+/// A frame with its photograph, which may be absent, and its mask.
+struct Frame {
+  std::string name;
+  fs::path image;
+  fs::path mask;
+  Camera pose;
+  const Json* values = nullptr;
+};
+
+Expected<Frame> parse_frame(const Json& values, const fs::path& folder, const fs::path& images, bool& scaled) {
+  const auto refuse = [](std::string_view message) { return failure(ErrorKind::kInput, std::string(message)); };
+  const auto path = values.is_object() ? values.find("file_path") : values.end();
+  if (!values.is_object() || path == values.end() || !path->is_string()) return refuse("has no file_path");
+  Frame frame;
+  frame.values = &values;
+  const auto text = path->get<std::string>();
+  if (has_control_characters(text)) return refuse("its file_path has control characters");
+  frame.name = fs::path(text).lexically_normal().string();
+  frame.image = images.empty() ? find_photograph(folder, frame.name) : find_photograph_by_end(images, frame.name);
+  if (const std::string found = frame.image.extension().string(); fs::path(frame.name).extension().empty())
+    frame.name += found;
+  QUORUM_ASSIGN(frame.pose, pose_of(values, scaled));
+  if (const auto mask = values.find("mask_path"); mask != values.end() && !mask->is_null()) {
+    if (!mask->is_string()) return refuse("its mask_path is no text");
+    frame.mask = find_photograph(folder, mask->get<std::string>());
+    if (frame.mask.empty())
+      return refuse(fmt::format("its mask_path {} is not there; add it, or remove the field",
+                                quote_token(mask->get<std::string>())));
   }
-  return lens;
+  return frame;
+}
+
+Expected<void> read_points(const Json& file, const fs::path& folder, Scene& scene) {
+  const auto name = file.find("ply_file_path");
+  if (name == file.end() || !name->is_string()) return {};
+  const fs::path path = folder / name->get<std::string>();
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) {
+    scene.notes.push_back(
+        fmt::format("ply_file_path {} is not there; its points are not used", quote_token(name->get<std::string>())));
+    return {};
+  }
+  QUORUM_ASSIGN(const auto cloud, read_ply(path));
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(cloud.vertices.size());
+  for (const Vertex& vertex : cloud.vertices) positions.push_back(vertex.position.cast<double>() + cloud.offset);
+  scene.points = points_before(scene.views, positions);
+  return {};
+}
+
+/// The frames of the file, sorted by name; notes tell of scales and of fields that are not used.
+Expected<std::vector<Frame>> parse_frames(const Json& file, const fs::path& folder, const fs::path& images,
+                                          std::vector<std::string>& notes) {
+  const auto list = file.find("frames");
+  if (list == file.end() || !list->is_array()) return failure(ErrorKind::kInput, "has no list \"frames\"");
+  std::vector<Frame> frames;
+  std::set<std::string> unused;
+  add_unused_fields(file, FieldPlace::kFile, unused);
+  std::size_t scaled_count = 0;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    bool scaled = false;
+    auto frame = parse_frame((*list)[i], folder, images, scaled);
+    if (!frame) return failure(ErrorKind::kInput, fmt::format("frame {}: {}", i, frame.error().message));
+    scaled_count += scaled ? 1 : 0;
+    add_unused_fields(*frame->values, FieldPlace::kFrame, unused);
+    frames.push_back(std::move(*frame));
+  }
+  std::ranges::sort(frames, {}, &Frame::name);
+  if (scaled_count > 0)
+    notes.push_back(
+        fmt::format("the scale in the transform_matrix of {} frames means nothing for a camera, and is taken "
+                    "off",
+                    scaled_count));
+  if (!unused.empty()) notes.push_back(fmt::format("transforms.json: not used: {}", fmt::join(unused, ", ")));
+  return frames;
 }
 
 }  // namespace
 
 Expected<Scene> read_transforms(const fs::path& folder, const fs::path& images) {
   const fs::path path = folder / "transforms.json";
-  const auto refuse = [&path](std::string_view message) {
-    return failure(ErrorKind::kInput, fmt::format("{}: {}", path.string(), message));
-  };
-  const auto text = read_file(path);
-  if (!text) return std::unexpected(text.error());
-  const Json file = Json::parse(*text, nullptr, false);
-  if (!file.is_object()) return refuse("is no JSON object; check its syntax");
-  const auto list = file.find("frames");
-  if (list == file.end() || !list->is_array()) return refuse("has no list \"frames\"");
+  const auto refuse = [&path](const Error& error) { return std::unexpected(error.within(path.string())); };
+  QUORUM_ASSIGN(const auto text, read_file(path));
+  QUORUM_ASSIGN(const Json file, parse_json(path, text));
+  if (!file.is_object()) return path_failure(path, "is no JSON object; check its syntax");
+  std::vector<std::string> notes;
+  const auto frames = parse_frames(file, folder, images, notes);
+  if (!frames) return refuse(frames.error());
 
-  const fs::path image_folder = images.empty() ? folder : images;
-  std::vector<Frame> frames;
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    const Json& frame = (*list)[i];
-    const auto name = frame.find("file_path");
-    if (!frame.is_object() || name == frame.end() || !name->is_string())
-      return refuse(fmt::format("frame {} has no file_path", i));
-    if (has_control_characters(name->get<std::string>()))
-      return refuse(fmt::format("frame {}: its file_path has control characters", i));
-    const auto pose = pose_of(frame);
-    if (!pose) return refuse(fmt::format("frame {}: transform_matrix is no 4 x 4 matrix of numbers", i));
-    std::string image = fs::path(name->get<std::string>()).lexically_normal().string();
-    std::error_code ignored;
-    if (!fs::exists(image_folder / image, ignored)) image += ".png";
-    frames.push_back({image, *pose, &frame});
+  ViewList list;
+  std::vector<fs::path> masks;
+  for (const Frame& frame : *frames) {
+    ImageSize size;
+    if (!frame.image.empty()) {
+      const auto found = read_image_size(frame.image);
+      if (!found) return refuse(found.error());
+      size = *found;
+    }
+    const auto lens = lens_of_frame(*frame.values, file, size);
+    if (!lens) return refuse(lens.error().within(fmt::format("frame \"{}\"", frame.name)));
+    const auto added = list.add(frame.name, frame.image, frame.pose, *lens);
+    if (!added) return refuse(added.error());
+    if (*added >= 0) masks.push_back(frame.mask);
   }
-  std::ranges::sort(frames, {}, &Frame::name);
-  ViewList views;
-  for (const Frame& frame : frames) {
-    const auto size = read_image_size(image_folder / frame.name);
-    if (!size) return std::unexpected(size.error().within(path.string()));
-    const auto lens = lens_of(Values(*frame.values, file), *size);
-    if (!lens) return refuse(fmt::format("frame \"{}\": {}", frame.name, lens.error().message));
-    if (auto added = views.add(frame.name, image_folder / frame.name, frame.pose, *lens); !added)
-      return std::unexpected(added.error().within(path.string()));
-  }
-  auto finished = views.finish();
-  if (!finished) return std::unexpected(finished.error().within(path.string()));
-  return Scene{std::move(*finished), {}};
+  auto scene = list.finish();
+  if (!scene) return refuse(scene.error());
+  const auto mask_count = std::ranges::count_if(masks, [](const fs::path& mask) { return !mask.empty(); });
+  if (mask_count > 0) notes.push_back(fmt::format("{} frames have a mask (mask_path)", mask_count));
+  for (std::size_t i = 0; i < masks.size(); ++i)
+    if (!masks[i].empty()) scene->views[i].mask_path = masks[i];
+  QUORUM_TRY(read_points(file, folder, *scene));
+  scene->notes.insert(scene->notes.begin(), notes.begin(), notes.end());
+  return scene;
 }
 
-Expected<void> write_transforms(const fs::path& folder, const std::vector<View>& views,
+Expected<void> write_transforms(OutputFolder& output, const std::vector<View>& views,
                                 const std::vector<std::string>& names, const std::vector<Eigen::Vector3d>& centers) {
   std::string frames;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -155,8 +193,8 @@ Expected<void> write_transforms(const fs::path& folder, const std::vector<View>&
       frames += fmt::format("[{}, {}, {}, {}], ", r(0, row), -r(1, row), -r(2, row), centers[i](row));
     frames += "[0, 0, 0, 1]]}";
   }
-  return write_file(folder / "transforms.json",
-                    fmt::format("{{\"camera_model\": \"PINHOLE\", \"frames\": [\n{}]}}\n", frames));
+  return output.write("transforms.json",
+                      fmt::format("{{\"camera_model\": \"PINHOLE\", \"frames\": [\n{}]}}\n", frames));
 }
 
 }  // namespace quorum

@@ -3,45 +3,83 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
+#include "engine/core/option.h"
 #include "engine/io/image_size.h"
+#include "engine/io/text.h"
+#include "engine/io/view_names.h"
 
 namespace quorum {
 namespace {
 
-std::string without_slashes(std::string text) {
-  std::ranges::replace(text, '/', '_');
-  return text;
-}
-
-std::string short_name(const View& view) {
-  return without_slashes(std::filesystem::path(view.image_name).replace_extension().string());
+/// The lens of the same picture at another size. Positions count from the corner of the top-left pixel.
+Lens resized(Lens lens, ImageSize size) {
+  const Eigen::Vector2d factor(static_cast<double>(size.width) / lens.width,
+                               static_cast<double>(size.height) / lens.height);
+  lens.focal = lens.focal.cwiseProduct(factor);
+  lens.principal = (lens.principal.array() + 0.5) * factor.array() - 0.5;
+  lens.width = size.width;
+  lens.height = size.height;
+  return lens;
 }
 
 }  // namespace
 
-Expected<void> ViewList::add(const std::string& image_name, const std::filesystem::path& image_path, const Camera& pose,
-                             Lens lens) {
+std::string absent_note(const std::vector<std::string>& names, std::size_t count) {
+  constexpr std::size_t kTold = 5;
+  const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kTold));
+  return fmt::format("{} of {} photographs {} not there and left out: {}{}", names.size(), count,
+                     names.size() == 1 ? "is" : "are", fmt::join(names.begin(), end, ", "),
+                     names.size() > kTold ? " …" : "");
+}
+
+std::string alpha_note(std::size_t count) {
+  return fmt::format("{} photographs have an alpha channel, which is taken as their mask", count);
+}
+
+Expected<int> ViewList::add(const std::string& image_name, const std::filesystem::path& image_path, const Camera& pose,
+                            Lens lens) {
   const auto refuse = [&](std::string_view message) {
     return failure(ErrorKind::kInput, fmt::format("image \"{}\": {}", image_name, message));
   };
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(image_path, ignored))
-    return refuse(fmt::format("{} is not there; add it or give its folder with --images", image_path.string()));
-  const auto size = read_image_size(image_path);
-  if (!size) return std::unexpected(size.error());
-  if (lens.width == 0 && lens.height == 0) {
-    lens.width = size->width;
-    lens.height = size->height;
+  if (has_control_characters(image_name))
+    return failure(ErrorKind::kInput,
+                   fmt::format("image {}: its name has control characters; rename it", quote_token(image_name)));
+  if (image_path.empty()) {
+    absent_.push_back(image_name);
+    return -1;
   }
-  if (*size != ImageSize{lens.width, lens.height})
+  QUORUM_ASSIGN(const auto header, read_image_header(image_path));
+  const ImageSize size = header.size;
+  if (lens.width == 0 && lens.height == 0) {
+    lens.width = size.width;
+    lens.height = size.height;
+  }
+  if (!photographs_.insert(image_path.lexically_normal()).second)
+    return refuse(fmt::format("{} is the photograph of another image, too; leave one of the two", image_path.string()));
+  const auto factor = common_factor({lens.width, lens.height}, size);
+  if (!factor && lens.width == size.height && lens.height == size.width)
+    return refuse(
+        fmt::format("{} is {} x {}, its camera {} x {}: the cameras were found for pictures turned by the "
+                    "orientation in the file; turn the pixels of the files, too (mogrify -auto-orient)",
+                    image_path.string(), size.width, size.height, lens.width, lens.height));
+  if (!factor)
     return refuse(fmt::format("{} is {} x {}, its camera {} x {}; give the photographs that the cameras were found for",
-                              image_path.string(), size->width, size->height, lens.width, lens.height));
+                              image_path.string(), size.width, size.height, lens.width, lens.height));
+  if (*factor != 1.0) {
+    lens = resized(lens, size);
+    least_factor_ = scaled_count_ == 0 ? *factor : std::min(least_factor_, *factor);
+    largest_factor_ = std::max(largest_factor_, *factor);
+    ++scaled_count_;
+  }
 
   View view;
   view.image_name = image_name;
   view.image_path = image_path;
+  if (header.has_alpha) {
+    view.mask_path = image_path;
+    ++alpha_count_;
+  }
   view.camera = pose;
   view.camera.intrinsics << lens.focal.x(), 0, lens.principal.x(), 0, lens.focal.y(), lens.principal.y(), 0, 0, 1;
   view.width = lens.width;
@@ -58,26 +96,32 @@ Expected<void> ViewList::add(const std::string& image_name, const std::filesyste
     view.lens = lens;
   }
   views_.push_back(std::move(view));
-  return {};
+  return static_cast<int>(views_.size()) - 1;
 }
 
-Expected<std::vector<View>> ViewList::finish() {
-  if (views_.size() < 3)
+Expected<Scene> ViewList::finish() {
+  const std::size_t count = views_.size() + absent_.size();
+  if (views_.size() < 3 && !absent_.empty())
     return failure(
         ErrorKind::kInput,
-        fmt::format("holds {} views, expected 3 or more: a reference view and two neighbors", views_.size()));
-  std::map<std::string, int> uses;
-  for (const View& view : views_) ++uses[short_name(view)];
-  std::map<std::string, const View*> named;
-  for (View& view : views_) {
-    view.name = short_name(view);
-    if (uses[view.name] > 1) view.name = without_slashes(view.image_name);
-    const auto [other, is_new] = named.emplace(view.name, &view);
-    if (!is_new)
-      return failure(ErrorKind::kInput, fmt::format("images \"{}\" and \"{}\" would have one name; rename one",
-                                                    other->second->image_name, view.image_name));
+        fmt::format("{} of {} photographs are there, expected 3 or more (image \"{}\" is not there); add them "
+                    "or give their folder with {}",
+                    views_.size(), count, absent_.front(), option_name("images")));
+  if (views_.size() < 3)
+    return failure(ErrorKind::kInput,
+                   fmt::format("holds {} views, expected 3 or more: a reference view and two neighbors", count));
+  QUORUM_TRY(name_views(views_));
+  Scene scene{std::move(views_), {}};
+  if (!absent_.empty()) scene.notes.push_back(absent_note(absent_, count));
+  if (scaled_count_ > 0) {
+    const std::string factors = largest_factor_ - least_factor_ < 0.005
+                                    ? fmt::format("{:.4g}", largest_factor_)
+                                    : fmt::format("{:.4g} to {:.4g}", least_factor_, largest_factor_);
+    scene.notes.push_back(fmt::format("{} photographs have another size than their cameras, which are scaled by {}",
+                                      scaled_count_, factors));
   }
-  return std::move(views_);
+  if (alpha_count_ > 0) scene.notes.push_back(alpha_note(alpha_count_));
+  return scene;
 }
 
 }  // namespace quorum

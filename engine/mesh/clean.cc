@@ -51,6 +51,7 @@ class Components {
 /// The vertices that stay, and triangles that count them anew.
 Mesh keep_vertices(const Mesh& mesh, std::vector<Triangle> triangles, const std::vector<bool>& kept) {
   Mesh result;
+  result.offset = mesh.offset;
   std::vector<std::uint32_t> new_index(mesh.vertices.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (!kept[v]) continue;
@@ -64,12 +65,6 @@ Mesh keep_vertices(const Mesh& mesh, std::vector<Triangle> triangles, const std:
 }
 
 }  // namespace
-
-Expected<void> CleanOptions::check() const {
-  if (!(std::isfinite(min_confidence) && min_confidence >= 0))
-    return failure(ErrorKind::kUsage, fmt::format("--min-confidence {}: give a number of at least 0", min_confidence));
-  return {};
-}
 
 float automatic_min_confidence(const std::vector<Vertex>& vertices, float most) {
   constexpr float kShareOfMedian = 0.125F;
@@ -90,9 +85,11 @@ Mesh clean(const Mesh& mesh, const CleanOptions& options, CleanCounts* counts) {
       drop_triangles(triangles, [&](const Triangle& triangle) { return !std::ranges::all_of(triangle, is_confident); });
 
   Components components(mesh, triangles);
-  dropped.small_component_triangles = drop_triangles(triangles, [&](const Triangle& triangle) {
+  const auto is_small = [&](const Triangle& triangle) {
     return components.size(triangle[0]) < options.min_component_triangles;
-  });
+  };
+  if (!std::ranges::all_of(triangles, is_small))
+    dropped.small_component_triangles = drop_triangles(triangles, is_small);
   if (options.largest_component && !triangles.empty()) {
     const std::uint32_t largest = components.largest();
     dropped.other_component_triangles =
@@ -113,6 +110,18 @@ Mesh clean(const Mesh& mesh, const CleanOptions& options, CleanCounts* counts) {
   }
   if (counts != nullptr) *counts = dropped;
   return keep_vertices(mesh, std::move(triangles), kept);
+}
+
+std::uint64_t count_pieces(const Mesh& mesh) {
+  Components components(mesh, mesh.triangles);
+  std::vector<bool> seen(mesh.vertices.size());
+  std::uint64_t count = 0;
+  for (const Triangle& triangle : mesh.triangles) {
+    const std::uint32_t piece = components.find(triangle[0]);
+    if (!seen[piece]) ++count;
+    seen[piece] = true;
+  }
+  return count;
 }
 
 }  // namespace quorum

@@ -3,18 +3,15 @@
 
 #include <cstdint>
 
-#include "engine/core/error.h"
 #include "engine/mesh/mesh.h"
 
 namespace quorum {
 
 struct CleanOptions {
-  float min_confidence = 0;                     ///< a triangle with a corner below this is dropped; >= 0
-  std::uint64_t min_component_triangles = 100;  ///< a component with fewer measured triangles is dropped; 0 keeps all
-  bool largest_component = false;               ///< keep only the component with the most triangles
-
-  /// Names the first option that is out of its range, and the range. kUsage.
-  [[nodiscard]] Expected<void> check() const;
+  float min_confidence = 0;  ///< a triangle with a corner below this is dropped; >= 0
+  std::uint64_t min_component_triangles =
+      100;                         ///< a component with fewer measured triangles is dropped, unless all are small
+  bool largest_component = false;  ///< keep only the component with the most triangles
 };
 
 /// The least confidence that a vertex needs when the user names none: most, or an eighth of the median over the
@@ -33,10 +30,14 @@ struct CleanCounts {
 };
 
 /// Drops triangles with a corner of low confidence, then components (triangles joined by shared vertices) that are too
-/// small (triangles with a corner of confidence 0, which was filled in, don't count), then, if wanted, all components
+/// small (triangles with a corner of confidence 0, which was filled in, don't count), unless all are, as in a scene of
+/// few pixels, then, if wanted, all components
 /// but the largest (of equal ones the one with the lowest vertex index), then vertices that no triangle uses. What
 /// stays keeps its order. A cloud only loses its vertices of low confidence. counts: if given, receives what was
 /// dropped. Empty for an empty mesh. Cannot fail.
 Mesh clean(const Mesh& mesh, const CleanOptions& options, CleanCounts* counts = nullptr);
+
+/// Components of a mesh.
+std::uint64_t count_pieces(const Mesh& mesh);
 
 }  // namespace quorum

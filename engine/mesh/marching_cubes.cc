@@ -137,6 +137,15 @@ Vertex make_vertex(const Voxel& from, const Voxel& to, const Eigen::Vector3d& po
 
 }  // namespace
 
+void MeasuredSurface::append(const MeasuredSurface& next) {
+  for (const std::size_t first : next.first_vertex) first_vertex.push_back(vertices.size() + first);
+  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  add(indices, next.indices);
+  add(signs, next.signs);
+  add(vertices, next.vertices);
+  add(weights, next.weights);
+}
+
 void MarchingCubes::reserve(std::size_t blocks) {
   surface_.indices.reserve(blocks);
   surface_.signs.reserve(blocks);

@@ -23,6 +23,9 @@ struct MeasuredSurface {
   std::vector<std::size_t> first_vertex;  ///< of each block, in vertices
   std::vector<Vertex> vertices;           ///< of all edges between seen voxels of different sign
   std::vector<std::uint16_t> weights;     ///< of each voxel of each block, cut at the largest; only if asked for
+
+  /// Takes what was kept of the blocks that follow.
+  void append(const MeasuredSurface& next);
 };
 
 /// Triangles in every cube whose eight corners were all seen (weight above 0); what was not seen stays open. Vertices
@@ -39,6 +42,9 @@ class MarchingCubes {
   explicit MarchingCubes(const VoxelGrid& grid, bool keeps_weights = false) : keeps_weights_(keeps_weights) {
     surface_.grid = grid;
   }
+  /// Goes on with what take() gave.
+  explicit MarchingCubes(MeasuredSurface surface)
+      : keeps_weights_(!surface.weights.empty()), surface_(std::move(surface)) {}
 
   /// Makes room for so many blocks, so that memory for what is kept of them is not taken twice.
   void reserve(std::size_t blocks);

@@ -19,8 +19,9 @@ struct Vertex {
 
 /// Triangles list their corners counterclockwise as seen from outside.
 struct Mesh {
-  std::vector<Vertex> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Vertex> vertices = {};
+  std::vector<std::array<std::uint32_t, 3>> triangles = {};
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< files' coordinates = positions + offset
 };
 
 }  // namespace quorum

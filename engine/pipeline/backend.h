@@ -88,8 +88,14 @@ class Backend {
   /// for one that is merged.
   [[nodiscard]] virtual std::uint64_t view_bytes(std::uint64_t pixels, int neighbors) const = 0;
 
+  /// Makes the device anew after a failure (kDevice), as when the driver has lost it; the volume is gone. Fails if that
+  /// can't be done; the backend is of no more use then.
+  virtual Expected<void> renew() { return failure(ErrorKind::kDevice, "this device can't be made anew"); }
+
   /// Device seconds per kernel so far.
   [[nodiscard]] virtual std::vector<StageTime> kernel_times() const = 0;
+  /// True if these are CPU seconds of this process.
+  [[nodiscard]] virtual bool runs_on_host() const { return false; }
   /// Measures what the device can do at most; may take a second, and hundreds of MiB.
   virtual Expected<DeviceRates> measure_rates() { return DeviceRates{}; }
   /// Counted work of the sweeps so far; all 0 on a device that does not count it.

@@ -54,4 +54,18 @@ void BackgroundThread::work() {
   }
 }
 
+BackgroundThreads::BackgroundThreads(std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) threads_.push_back(std::make_unique<BackgroundThread>());
+}
+
+StageReport BackgroundThreads::time(const std::string& name) const {
+  StageReport sum{name, 0.0, 0.0};
+  for (const auto& thread : threads_) {
+    const StageReport one = thread->time(name);
+    sum.wall_seconds += one.wall_seconds;
+    sum.cpu_seconds += one.cpu_seconds;
+  }
+  return sum;
+}
+
 }  // namespace quorum

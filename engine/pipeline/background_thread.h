@@ -4,12 +4,14 @@
 #include <condition_variable>
 #include <functional>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <queue>
 #include <string>
 #include <thread>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "engine/pipeline/run_report.h"
 
@@ -48,6 +50,25 @@ class BackgroundThread {
   bool busy_ = false;
   bool ending_ = false;
   std::thread thread_;
+};
+
+/// Some of them: jobs go to one after the other, and run at the same time.
+class BackgroundThreads {
+ public:
+  /// count: at least one.
+  explicit BackgroundThreads(std::size_t count);
+
+  /// As BackgroundThread::run.
+  template <typename Work>
+  std::future<std::invoke_result_t<Work>> run(Work work) {
+    return threads_[next_++ % threads_.size()]->run(std::move(work));
+  }
+  /// As BackgroundThread::time, of all of them.
+  [[nodiscard]] StageReport time(const std::string& name) const;
+
+ private:
+  std::vector<std::unique_ptr<BackgroundThread>> threads_;
+  std::size_t next_ = 0;
 };
 
 }  // namespace quorum

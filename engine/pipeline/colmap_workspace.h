@@ -2,14 +2,11 @@
 // needs CUDA.
 #pragma once
 
-#include <filesystem>
-
-#include "engine/pipeline/progress.h"
-#include "engine/pipeline/reconstruct.h"
+#include "engine/pipeline/run.h"
 
 namespace quorum {
 
-/// Writes what COLMAP's image_undistorter and patch_match_stereo would leave in folder:
+/// Writes what COLMAP's image_undistorter and patch_match_stereo would leave into colmap/ of the workspace:
 ///   images/               the photographs, as they are or undistorted (.png)
 ///   sparse/*.bin          cameras (PINHOLE), poses, and points with the views that see them
 ///   stereo/depth_maps/    NAME.geometric.bin of every view with a depth map
@@ -19,8 +16,9 @@ namespace quorum {
 /// pixels, seen by the neighbors whose depth map agrees.
 /// Fails (kInput) if a file can't be read or written, there is no depth map, or a camera has skew, which PINHOLE has
 /// not; and (kStopped).
-Expected<void> write_colmap_workspace(const std::filesystem::path& folder, const Scene& scene,
-                                      const ReconstructOptions& options, const Workspace& workspace,
-                                      Progress& progress);
+Expected<void> write_colmap_workspace(Run& run);
+
+/// Fails as write_colmap_workspace would, now, as far as that can be seen beforehand.
+Expected<void> check_colmap_workspace(const Run& run);
 
 }  // namespace quorum

@@ -1,97 +1,116 @@
 #include "engine/pipeline/confirm_views.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
-#include "engine/pipeline/background_thread.h"
-#include "engine/pipeline/memory_budget.h"
+#include "engine/mesh/drop_specks.h"
+#include "engine/pipeline/compute_depth_maps.h"
+#include "engine/pipeline/provenance.h"
+#include "engine/pipeline/view_loop.h"
+#include "engine/volume/range_surface.h"
 
 namespace quorum {
 namespace {
 
-const View& view_at(const Scene& scene, int index) { return scene.views[static_cast<std::size_t>(index)]; }
+/// A patch of more is no speck however small the image: else small images would lose all.
+int most_speck_pixels(const Grid<float>& depth) { return static_cast<int>(depth.values.size() / 1500); }
 
-/// The other views that a view is compared with. views: with a depth map, ascending.
-std::vector<int> select_others(const Scene& scene, int view, const std::vector<int>& views,
-                               const ReconstructOptions& options) {
-  SelectViewsOptions rule = options.views;
+/// The other views that a view may be compared with.
+std::vector<int> select_candidates(const Run& run, int view) {
+  SelectViewsOptions rule = run.options.views;
   rule.neighbor_count = kConfirmingViews;
-  std::vector<int> others = select_views(scene, view, rule);
+  return select_views(run.scene, view, rule);
+}
+
+/// Those of them that it is compared with. views: with a depth map, ascending.
+std::vector<int> select_others(const Run& run, int view, const std::vector<int>& views) {
+  std::vector<int> others = select_candidates(run, view);
   std::erase_if(others, [&](int other) { return !std::ranges::binary_search(views, other); });
   return others;
 }
 
-Expected<ConfirmTask> read_task(const Scene& scene, int view, const std::vector<int>& others,
-                                const FusionOptions& fusion, const Workspace& workspace) {
+Expected<ConfirmTask> read_task(const Run& run, int view, const std::vector<int>& others) {
   const auto read = [&](int index) -> Expected<ViewDepths> {
-    const View& source = view_at(scene, index);
-    auto depth = workspace.load_depth(source.name, source.width, source.height);
-    if (!depth) return std::unexpected(depth.error());
-    return ViewDepths{std::move(*depth), source.camera};
+    const View& source = run.view(index);
+    QUORUM_ASSIGN(auto depth, run.workspace.load_depth(source.name, source.width, source.height));
+    return ViewDepths{std::move(depth), source.camera};
   };
-  auto depths = read(view);
-  if (!depths) return std::unexpected(depths.error());
-  ConfirmTask task{std::move(*depths), {}, fusion};
+  QUORUM_ASSIGN(auto depths, read(view));
+  ConfirmTask task{std::move(depths), {}, run.options.fusion};
   for (const int other : others) {
-    auto other_depths = read(other);
-    if (!other_depths) return std::unexpected(other_depths.error());
-    task.others.push_back(std::move(*other_depths));
+    QUORUM_ASSIGN(auto other_depths, read(other));
+    task.others.push_back(std::move(other_depths));
   }
   return task;
 }
 
-/// What a view takes at most: its depths and its others', and the next view's, which are read meanwhile; support and
-/// certainty; the certainty of the last view, which is written meanwhile, with its picture and a file's bytes.
-std::uint64_t view_bytes(const Scene& scene, const std::vector<int>& views, const Backend& backend) {
-  constexpr std::uint64_t kPixelBytes = 2 * 4 * (1 + kConfirmingViews) + 4 + 8 + 16;
-  std::uint64_t pixels = 0;
-  for (const int index : views) {
-    const View& view = view_at(scene, index);
-    pixels = std::max(pixels, static_cast<std::uint64_t>(view.width) * static_cast<std::uint64_t>(view.height));
+/// That no depth map is missing that the shard's views need.
+Expected<void> check_inputs(const Run& run, const Shard& shard) {
+  for (int view = 0; view < static_cast<int>(run.scene.views.size()); ++view) {
+    if (!shard.has(view)) continue;
+    QUORUM_TRY(check_depth_map_is_there(run, view));
+    for (const int other : select_candidates(run, view)) QUORUM_TRY(check_depth_map_is_there(run, other));
   }
-  return kPixelBytes * pixels + backend.view_bytes(pixels, 0);
+  return {};
 }
 
 }  // namespace
 
-Expected<void> confirm_views(const Scene& scene, const std::vector<int>& views, const ReconstructOptions& options,
-                             Backend& backend, const Workspace& workspace, Progress& progress, RunReport& report) {
-  if (auto fits = MemoryBudget(options.memory_bytes).require(view_bytes(scene, views, backend), "confirming depths");
-      !fits)
-    return fits;
-  progress.stage("confirming depths", static_cast<int>(views.size()));
-
-  // While one view is confirmed, the next one's depths are read and the last one's certainty is written.
-  BackgroundThread reader;
-  BackgroundThread writer;
-  const auto read = [&](int view) {
-    return reader.run([&scene, &options, &workspace, view, others = select_others(scene, view, views, options)] {
-      return read_task(scene, view, others, options.fusion, workspace);
-    });
-  };
-  std::future<Expected<ConfirmTask>> reading;
-  if (!views.empty()) reading = read(views[0]);
-  std::future<Expected<void>> writing = writer.run([] { return Expected<void>(); });
-  for (std::size_t place = 0; place < views.size(); ++place) {
-    if (progress.stop_requested())
-      return failure(ErrorKind::kStopped, "stopped as asked; finished depth maps are kept");
-    const std::string& name = view_at(scene, views[place]).name;
-    const Expected<ConfirmTask> task = reading.get();
-    if (place + 1 < views.size()) reading = read(views[place + 1]);
-    if (!task) return std::unexpected(task.error());
-    Expected<Grid<float>> certainty = failure(ErrorKind::kInput, "");
-    {
-      const StageTimer timer(report, "confirm_depths");
-      certainty = backend.confirm_depths(*task);
-    }
-    if (!certainty) return std::unexpected(certainty.error().within(name));
-    if (auto saved = writing.get(); !saved) return saved;
-    writing =
-        writer.run([&workspace, &name, map = std::move(*certainty)] { return workspace.save_certainty(name, map); });
-    progress.step();
+Expected<void> confirm_views(Run& run, const std::vector<int>& views) {
+  if (!run.options.confirm) {
+    for (const int view : views) run.workspace.remove_certainty(run.view(view).name);
+    return {};
   }
-  if (auto saved = writing.get(); !saved) return saved;
-  add_stage(report, reader.time("load_depth_maps"));
-  add_stage(report, writer.time("save_certainty"));
+  const std::optional<Shard>& shard = run.options.shard;
+  if (shard) QUORUM_TRY(check_inputs(run, *shard));
+  std::vector<std::vector<int>> others(run.scene.views.size());
+  std::vector<std::string> records(run.scene.views.size());
+  std::vector<int> missing;
+  Provenance provenance(run);
+  int own = 0;
+  for (const int view : views) {
+    if (shard && !shard->has(view)) continue;
+    ++own;
+    const auto place = static_cast<std::size_t>(view);
+    others[place] = select_others(run, view, views);
+    records[place] = provenance.certainty_record(view, others[place]);
+    if (records[place].empty() || run.workspace.certainty_record(run.view(view).name) != records[place])
+      missing.push_back(view);
+  }
+  run.report.kept_certainties = own - static_cast<int>(missing.size());
+  if (missing.empty()) return {};
+  QUORUM_TRY(run.require(confirm_memory(run.scene, views, run.backend), "confirming depths"));
+  run.progress.stage("confirming depths", static_cast<int>(missing.size()));
+  const auto read = [&](int view) { return read_task(run, view, others[static_cast<std::size_t>(view)]); };
+  const auto confirm = [&](int, const ConfirmTask& task) -> Expected<Grid<float>> {
+    const Grid<float>& depth = task.view.depth;
+    QUORUM_ASSIGN(Grid<float> certainty, run.backend.confirm_depths(task));
+    const float max_step = make_range_surface_params(task.view.camera, depth.width, depth.height, task.fusion).max_step;
+    drop_specks(depth, max_step, std::min(run.options.min_patch, most_speck_pixels(depth)), certainty);
+    return certainty;
+  };
+  const auto save = [&](int view, const Grid<float>& certainty) {
+    return run.workspace.save_certainty(run.view(view).name, certainty, records[static_cast<std::size_t>(view)],
+                                        run.options.previews);
+  };
+  return for_each_view(run, missing, {"load_depth_maps", "confirm_depths", "save_certainty"}, read, confirm, save);
+}
+
+Expected<void> check_certainties(const Run& run, const std::vector<int>& views) {
+  for (int view = 0; view < static_cast<int>(run.scene.views.size()); ++view)
+    QUORUM_TRY(check_depth_map_is_there(run, view));
+  if (!run.options.confirm) return {};
+  Provenance provenance(run);
+  for (const int view : views) {
+    const std::string& name = run.view(view).name;
+    const std::string record = provenance.certainty_record(view, select_others(run, view, views));
+    if (record.empty() || run.workspace.certainty_record(name) != record)
+      return failure(ErrorKind::kInput,
+                     fmt::format("{}: the certainty of {} is missing, or was made of other depth maps or options; run "
+                                 "`quorum confirm` with the same options: what is there is kept",
+                                 run.workspace.folder().string(), name));
+  }
   return {};
 }
 

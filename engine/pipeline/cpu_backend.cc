@@ -9,6 +9,7 @@
 
 #include "engine/core/clock.h"
 #include "engine/core/host_rates.h"
+#include "engine/core/option.h"
 #include "engine/volume/collect_blocks.h"
 #include "engine/volume/integrate.h"
 #include "engine/volume/range_surface.h"
@@ -78,8 +79,9 @@ Expected<void> CpuBackend::begin_volume(const VoxelGrid& grid, const FusionOptio
   try {
     empty_.assign(grid.block_count(), BlockBits{});
   } catch (const std::bad_alloc&) {
-    return failure(ErrorKind::kMemory, fmt::format("carving needs {} MiB; give a larger --voxel-size",
-                                                   grid.block_count() * sizeof(BlockBits) >> 20));
+    return failure(ErrorKind::kMemory,
+                   fmt::format("carving needs {} MiB; give a larger {}", grid.block_count() * sizeof(BlockBits) >> 20,
+                               option_name("voxel-size")));
   }
   return {};
 }
@@ -98,9 +100,9 @@ Expected<void> CpuBackend::allocate_blocks(std::vector<std::uint32_t> indices) {
   try {
     pool_.voxels.assign(pool_.indices.size() * kBlockVoxels, Voxel{});
   } catch (const std::bad_alloc&) {
-    return failure(ErrorKind::kMemory,
-                   fmt::format("the volume needs {} MiB for {} blocks; give a larger --voxel-size",
-                               pool_.indices.size() * kBlockVoxels * sizeof(Voxel) >> 20, pool_.indices.size()));
+    return failure(ErrorKind::kMemory, fmt::format("the volume needs {} MiB for {} blocks; give a larger {}",
+                                                   pool_.indices.size() * kBlockVoxels * sizeof(Voxel) >> 20,
+                                                   pool_.indices.size(), option_name("voxel-size")));
   }
   return {};
 }
@@ -136,7 +138,8 @@ std::size_t CpuBackend::max_blocks(std::uint64_t host_bytes) const {
 std::uint64_t CpuBackend::view_bytes(std::uint64_t pixels, int neighbors) const {
   // The sweep: votes, planes twice, what they begin with, their ranges, support windows, the maps. The surface:
   // cells, weights, maps.
-  return (neighbors > 0 ? 136 : 44) * pixels;
+  if (neighbors == 0) return 44 * pixels;
+  return (136 + sizeof(std::uint64_t) * static_cast<std::uint64_t>(neighbors)) * pixels;  // and texel columns
 }
 
 Expected<DeviceRates> CpuBackend::measure_rates() {

@@ -23,6 +23,7 @@ class CpuBackend : public Backend {
   [[nodiscard]] std::size_t max_blocks(std::uint64_t host_bytes) const override;
   [[nodiscard]] std::uint64_t view_bytes(std::uint64_t pixels, int neighbors) const override;
   [[nodiscard]] std::vector<StageTime> kernel_times() const override { return times_; }
+  [[nodiscard]] bool runs_on_host() const override { return true; }
   Expected<DeviceRates> measure_rates() override;  ///< one thread's share, since times are sums over the threads
   [[nodiscard]] SweepCounts sweep_counts() const override { return counts_; }
 

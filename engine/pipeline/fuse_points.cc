@@ -1,20 +1,18 @@
 #include "engine/pipeline/fuse_points.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "engine/io/image_store.h"
-#include "engine/pipeline/memory_budget.h"
+#include "engine/io/ply.h"
+#include "engine/mesh/drop_specks.h"
 
 namespace quorum {
 namespace {
 
 constexpr double kAgreement = 0.01;  // of the depth
 constexpr double kReprojection = 1.5;
-constexpr int kLeastNeighbors = 2;
 
 /// A depth map with what the fusion knows of its view.
 struct FusedView {
@@ -64,27 +62,6 @@ std::optional<Sighting> find_agreeing(FusedView& other, const FusedView& referen
   return Sighting{&other, u, v};
 }
 
-/// What a view takes at most beside its cloud: maps of it and its neighbors, one of them as a file's bytes, normals,
-/// the photograph; and the cloud's growth, if each pixel made a point.
-std::uint64_t view_bytes(const Scene& scene, int reference, const std::vector<int>& neighbors, const Mesh& cloud) {
-  constexpr std::uint64_t kMapBytes = 12;
-  constexpr std::uint64_t kViewBytes = 4 + 12 + 8;
-  constexpr std::uint64_t kDistortedBytes = 12;
-  const auto area = [](int width, int height) {
-    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  };
-  const View& view = scene.views[static_cast<std::size_t>(reference)];
-  const std::uint64_t pixels = area(view.width, view.height);
-  std::uint64_t bytes = (kMapBytes + kViewBytes) * pixels + kDistortedBytes * area(view.photo_width, view.photo_height);
-  for (const int neighbor : neighbors) {
-    const View& other = scene.views[static_cast<std::size_t>(neighbor)];
-    bytes += kMapBytes * area(other.width, other.height);
-  }
-  const std::uint64_t points = cloud.vertices.size() + pixels;
-  if (points > cloud.vertices.capacity()) bytes += std::max(2 * cloud.vertices.size(), points) * sizeof(Vertex);
-  return bytes;
-}
-
 /// Drops the points of least confidence: chance agreements where there is no texture.
 void drop_doubtful(Mesh& cloud) {
   constexpr float kLeastShare = 0.25F;  // of the median
@@ -97,7 +74,8 @@ void drop_doubtful(Mesh& cloud) {
 }
 
 /// Adds the points that a view begins.
-void add_points(FusedView& reference, std::vector<FusedView>& neighbors, const ColorImage& image, Mesh& cloud) {
+void add_points(FusedView& reference, std::vector<FusedView>& neighbors, const ColorImage& image, int least_views,
+                Mesh& cloud) {
   const Eigen::Matrix3f world_from_camera = reference.view.camera.camera_from_world.transpose().cast<float>();
   std::vector<Sighting> sightings;
   for (int y = 0; y < reference.map.depth.height; ++y) {
@@ -109,7 +87,7 @@ void add_points(FusedView& reference, std::vector<FusedView>& neighbors, const C
       sightings.clear();
       for (FusedView& other : neighbors)
         if (const auto found = find_agreeing(other, reference, x, y, point)) sightings.push_back(*found);
-      if (static_cast<int>(sightings.size()) < kLeastNeighbors) continue;
+      if (static_cast<int>(sightings.size()) + 1 < least_views) continue;
       for (const Sighting& seen : sightings) {
         sum.add(seen.view->point(seen.x, seen.y), seen.view->map.confidence.at(seen.x, seen.y));
         seen.view->used[seen.view->place(seen.x, seen.y)] = true;
@@ -123,62 +101,49 @@ void add_points(FusedView& reference, std::vector<FusedView>& neighbors, const C
 
 }  // namespace
 
-Expected<Mesh> fuse_points(const Scene& scene, const ReconstructOptions& options, const Workspace& workspace,
-                           Progress& progress) {
-  const auto has_map = [&](int view) {
-    return workspace.has_depth_map(scene.views[static_cast<std::size_t>(view)].name);
-  };
-  std::vector<int> references;
-  for (int view = 0; view < static_cast<int>(scene.views.size()); ++view)
-    if (has_map(view)) references.push_back(view);
-  if (references.empty())
-    return failure(ErrorKind::kInput, fmt::format("{}: holds no depth map of this scene; run `quorum depth` first",
-                                                  (workspace.folder() / "depth").string()));
-  progress.stage("fusing points", static_cast<int>(references.size()));
-  std::vector<std::vector<bool>> used(scene.views.size());
+Expected<Mesh> fuse_points(Run& run) {
+  QUORUM_ASSIGN(const std::vector<int> references, run.views_with_depth_map());
+  run.progress.stage("fusing points", static_cast<int>(references.size()));
+  std::vector<std::vector<bool>> used(run.scene.views.size());
   const auto load = [&](int index) -> Expected<FusedView> {
-    const View& view = scene.views[static_cast<std::size_t>(index)];
-    auto map = workspace.load_depth_map(view.name, view.width, view.height);
-    if (!map) return std::unexpected(map.error());
-    if (options.confirm) {
-      auto certainty = workspace.load_certainty(view.name, view.width, view.height);
-      if (!certainty) return std::unexpected(certainty.error());
-      map->confidence = std::move(*certainty);
-    }
+    const View& view = run.view(index);
+    const bool confirmed = run.options.confirm;
+    QUORUM_ASSIGN(auto map, run.workspace.load_weighed_depth(view.name, view.width, view.height, confirmed));
+    if (confirmed) leave_out_dropped(map.confidence, map.depth);
     std::vector<bool>& bits = used[static_cast<std::size_t>(index)];
-    bits.resize(map->depth.values.size());
-    return FusedView{view, std::move(*map), bits};
+    bits.resize(map.depth.values.size());
+    return FusedView{view, std::move(map), bits};
   };
-  const MemoryBudget budget(options.memory_bytes);
-  ImageStore images(scene, 0);
+  ImageStore images(run.scene, 0);
   Mesh cloud;
   for (const int index : references) {
-    if (progress.stop_requested()) return failure(ErrorKind::kStopped, "stopped as asked; finished files are kept");
-    const std::vector<int> selected = select_views(scene, index, options.views);
-    if (auto fits = budget.require(view_bytes(scene, index, selected, cloud), "fusing points"); !fits)
-      return std::unexpected(fits.error());
-    auto reference = load(index);
-    if (!reference) return std::unexpected(reference.error());
-    auto normals = workspace.load_normals(reference->view.name, reference->view.width, reference->view.height);
-    if (!normals) return std::unexpected(normals.error());
-    reference->map.normal = std::move(*normals);
+    if (run.progress.stop_requested()) return std::unexpected(stopped());
+    std::vector<int> selected = select_views(run.scene, index, run.options.views);
+    QUORUM_TRY(run.require(cloud_memory(run.scene, index, selected, cloud.vertices.size(), cloud.vertices.capacity()),
+                           "fusing points"));
+    std::erase_if(selected, [&](int neighbor) { return !std::ranges::binary_search(references, neighbor); });
+    QUORUM_ASSIGN(auto reference, load(index));
+    const View& view = reference.view;
+    QUORUM_ASSIGN(reference.map.normal, run.workspace.load_normals(view.name, view.width, view.height));
     std::vector<FusedView> neighbors;
     for (const int neighbor : selected) {
-      if (!has_map(neighbor)) continue;
-      auto loaded = load(neighbor);
-      if (!loaded) return std::unexpected(loaded.error());
-      neighbors.push_back(std::move(*loaded));
+      QUORUM_ASSIGN(auto loaded, load(neighbor));
+      neighbors.push_back(std::move(loaded));
     }
-    const auto image = images.image(index);
-    if (!image) return std::unexpected(image.error());
-    add_points(*reference, neighbors, **image, cloud);
-    progress.step();
+    QUORUM_ASSIGN(const auto image, images.image(index));
+    add_points(reference, neighbors, *image, run.options.cloud_views, cloud);
+    run.progress.step();
   }
   drop_doubtful(cloud);
-  constexpr std::uint64_t kFileBytes = 35;  // a point in a PLY file, whose bytes are held as a whole
-  if (auto fits = budget.require(kFileBytes * cloud.vertices.size(), "writing the cloud"); !fits)
-    return std::unexpected(fits.error());
   return cloud;
+}
+
+Expected<void> write_cloud(Run& run) {
+  const StageTimer timer(run.report, "fuse_points");
+  QUORUM_ASSIGN(Mesh cloud, fuse_points(run));
+  cloud.offset = run.scene.offset;
+  QUORUM_TRY(run.require(cloud_file_memory(cloud.vertices.size()), "writing the cloud"));
+  return write_ply(run.workspace.cloud_path(), cloud, run.options.frame);
 }
 
 }  // namespace quorum

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/core/memory.h"
+#include "engine/core/option.h"
 
 namespace quorum {
 namespace {
@@ -24,12 +27,18 @@ std::uint64_t MemoryBudget::left() const {
   return bytes_ > held ? bytes_ - held : 0;
 }
 
-Expected<void> MemoryBudget::require(std::uint64_t more, const std::string& what_for) const {
+Expected<void> MemoryBudget::require(std::uint64_t more, std::string_view what_for) const {
   if (more <= left()) return {};
-  const std::uint64_t least = (resident_bytes() + more + more / 16 + 3 * kStep - 1) / kStep * kStep;
-  return failure(ErrorKind::kMemory, fmt::format("{} needs {} MiB of memory at least, more than the budget of {} MiB; "
-                                                 "give --memory {}MiB",
-                                                 what_for, least >> 20, bytes_ >> 20, least >> 20));
+  const std::uint64_t least =
+      (std::max(resident_bytes() + more + more / 16, foreseen_) + 3 * kStep - 1) / kStep * kStep;
+  return failure(ErrorKind::kMemory,
+                 fmt::format("{} needs {} MiB of memory at least, more than the budget of {} MiB; "
+                             "give {} {}MiB",
+                             what_for, least >> 20, bytes_ >> 20, option_name("memory"), least >> 20));
+}
+
+void MemoryBudget::foresee(std::uint64_t bytes) {
+  foreseen_ = std::max(foreseen_, resident_bytes() + bytes + bytes / 16);
 }
 
 }  // namespace quorum

@@ -2,40 +2,27 @@
 #pragma once
 
 #include "engine/core/error.h"
-#include "engine/depth/sweep_options.h"
-#include "engine/mesh/clean.h"
-#include "engine/pipeline/backend.h"
-#include "engine/pipeline/progress.h"
-#include "engine/pipeline/run_report.h"
-#include "engine/pipeline/workspace.h"
-#include "engine/scene/scene.h"
-#include "engine/scene/select_views.h"
-#include "engine/volume/fusion_options.h"
+#include "engine/pipeline/run.h"
 
 namespace quorum {
 
-struct ReconstructOptions {
-  SelectViewsOptions views;
-  SweepOptions sweep;
-  FusionOptions fusion;
-  CleanOptions clean;
-  bool confirm = true;               ///< weigh depths by what other views' depth maps make of them, not by conf(d)
-  bool automatic_confidence = true;  ///< clean.min_confidence from the mesh itself
-  double mask_below = 0.0;           ///< level of the dark-background mask, 0..1; 0 = none (paper 4.6)
-  std::uint64_t memory_bytes = 0;    ///< that the process may hold; 0 = automatic (MemoryBudget)
-
-  /// Names the first option that is out of its range, and the range. kUsage.
-  [[nodiscard]] Expected<void> check() const;
+/// The steps of a run. All are `quorum reconstruct`, the first is `quorum depth`, the second `quorum confirm`, both
+/// others `quorum fuse`, and the last `quorum join`.
+struct RunSteps {
+  bool depth_maps = true;
+  bool certainties = true;
+  bool mesh = true;
+  bool joins = false;  ///< the volume was measured by shards
 };
 
-/// Depth maps of all views into the workspace. A view with fewer than two neighbors is noted and left out.
-/// Fails (kInput) if no view has two neighbors or an image is bad, as the backend does, or kStopped.
-Expected<void> compute_depth_maps(const Scene& scene, const ReconstructOptions& options, Backend& backend,
-                                  const Workspace& workspace, Progress& progress, RunReport& report);
-
-/// The depth maps of the workspace into mesh.ply. Views without a depth map are left out.
-/// Fails (kInput) if there are none or they don't fit the scene, as the backend does, or kStopped.
-Expected<void> fuse_depth_maps(const Scene& scene, const ReconstructOptions& options, Backend& backend,
-                               const Workspace& workspace, Progress& progress, RunReport& report);
+/// Makes depth maps of all views, the mesh of these, and the files beside it that the options ask for, in the run's
+/// workspace, and writes run.json. All that the options can get wrong is refused (kUsage, kInput, kMemory) before any
+/// work. Fails as the stages do: (kInput) if a file is bad, no view has two neighbors, or there is no depth map;
+/// (kDevice, kMemory) as the backend does; (kStopped).
+///
+/// A shard (RunOptions::shard) does its part of the one step that is asked for, and writes shards/STAGE-I-of-N.json in
+/// place of run.json. Shards of a step may run in any order and at once, each also again; when all are done, the next
+/// step may begin. The results have the bytes of one run.
+Expected<void> reconstruct(Run& run, const RunSteps& steps = {});
 
 }  // namespace quorum

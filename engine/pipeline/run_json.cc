@@ -1,8 +1,9 @@
 #include "engine/pipeline/run_json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/memory.h"
+#include "engine/core/printable.h"
 #include "engine/core/version.h"
 
 namespace quorum {
@@ -10,52 +11,40 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The factors of a vertex's weight, as --weights takes them.
-Json weights_json(const FusionOptions& fusion) {
-  Json factors = Json::array();
-  if (fusion.weigh_confidence) factors.push_back("confidence");
-  if (fusion.weigh_slant) factors.push_back("slant");
-  if (fusion.weigh_border) factors.push_back("border");
-  return factors;
+/// The value of an option: a number, true or false, a list, or text.
+Json value_of(const RunOption& option, const std::string& text) {
+  if (option.is_list) {
+    Json parts = Json::array();
+    for (std::size_t begin = 0, end = 0; text != "none" && end != std::string::npos; begin = end + 1) {
+      end = text.find(',', begin);
+      parts.push_back(text.substr(begin, end - begin));
+    }
+    return parts;
+  }
+  Json value = Json::parse(text, nullptr, false);
+  return value.is_number() || value.is_boolean() ? value : Json(text);
 }
 
-Json json_of(const ReconstructOptions& options) {
-  const auto automatic = [](double length) { return length > 0 ? Json(length) : Json("auto"); };
-  const char* rule = options.views.rule == ViewRule::kPoints  ? "points"
-                     : options.views.rule == ViewRule::kAngle ? "angle"
-                                                              : "auto";
-  return {{"neighbors", options.views.neighbor_count},
-          {"views", rule},
-          {"min_angle_deg", options.views.min_angle_deg},
-          {"max_angle_deg", options.views.max_angle_deg},
-          {"window", options.sweep.window},
-          {"second_window", options.sweep.second_window},
-          {"window_model", window_model_name(options.sweep.window_model)},
-          {"threshold", options.sweep.threshold},
-          {"min_votes", options.sweep.min_votes},
-          {"depth_step", automatic(options.sweep.depth_step)},
-          {"step_pixels", options.sweep.automatic_step_pixels()},
-          {"support_tolerance", options.sweep.support_tolerance},
-          {"refinement", options.sweep.refinement},
-          {"mask_below", options.mask_below},
-          {"voxel_size", automatic(options.fusion.voxel_size)},
-          {"truncation", automatic(options.fusion.truncation)},
-          {"max_slope_deg", options.fusion.max_slope_deg},
-          {"feather", options.fusion.feather},
-          {"signed_distance", options.fusion.signed_distance == SignedDistance::kNormal ? "normal" : "ray"},
-          {"weights", weights_json(options.fusion)},
-          {"fill_holes", options.fusion.fill_holes},
-          {"confirm", options.confirm},
-          {"min_confidence", options.automatic_confidence ? Json("auto") : Json(options.clean.min_confidence)},
-          {"min_component", options.clean.min_component_triangles},
-          {"largest_component", options.clean.largest_component}};
+Json json_of(const RunOptions& options, RunStage first, RunStage last) {
+  Json json = Json::object();
+  for (const RunOption& option : run_option_table()) {
+    const std::string text = option.text(options);
+    if (option.stage < first || option.stage > last || text.empty()) continue;
+    std::string name = option.name;
+    std::ranges::replace(name, '-', '_');
+    json[name] = value_of(option, text);
+  }
+  return json;
 }
 
 }  // namespace
 
-std::string options_json(const ReconstructOptions& options) { return json_of(options).dump(2) + "\n"; }
+std::string options_json(const RunOptions& options, RunStage first, RunStage last) {
+  return json_of(options, first, last).dump(2) + "\n";
+}
 
-std::string run_json(const Scene& scene, const ReconstructOptions& options, const RunReport& report) {
+std::string run_json(const Run& run) {
+  const RunReport& report = run.report;
   Json stages = Json::array();
   for (const StageReport& stage : report.stages)
     stages.push_back({{"name", stage.name}, {"wall_seconds", stage.wall_seconds}, {"cpu_seconds", stage.cpu_seconds}});
@@ -69,36 +58,47 @@ std::string run_json(const Scene& scene, const ReconstructOptions& options, cons
                      {"swept_pixels", view.swept_pixels},
                      {"depth_samples", view.depth_samples},
                      {"valid_pixels", view.valid_pixels}});
+  Json photographs = Json::object();  // what the scene's files call the photographs of views
+  for (const View& view : run.scene.views) photographs[view.name] = printable(view.image_name);
   const auto point = [](const Eigen::Vector3d& p) { return Json{p.x(), p.y(), p.z()}; };
-  const Json all = {
-      {"version", version()},
-      {"device", report.device},
-      {"scene", {{"views", scene.views.size()}, {"bounds", {point(scene.bounds.low), point(scene.bounds.high)}}}},
-      {"options", json_of(options)},
-      {"wall_seconds", report.wall_seconds},
-      {"cpu_seconds", report.cpu_seconds},
-      {"stages", stages},
-      {"kernels", kernels},
-      {"work",
-       {{"sweep_windows", report.sweep.sweep_windows},
-        {"sweep_samples", report.sweep.sweep_samples},
-        {"refine_windows", report.sweep.refine_windows},
-        {"refine_samples", report.sweep.refine_samples}}},
-      {"memory_budget_bytes", report.memory_budget_bytes},
-      {"peak_memory_bytes", peak_memory_bytes()},
-      {"volume",
-       {{"voxel_size", report.voxel_size},
-        {"truncation", report.truncation},
-        {"blocks", report.blocks},
-        {"block_views", report.block_views},
-        {"slabs", report.slabs}}},
-      {"mesh",
-       {{"min_confidence", report.min_confidence},
-        {"extracted_triangles", report.extracted_triangles},
-        {"triangles", report.triangles},
-        {"vertices", report.vertices},
-        {"filled_vertices", report.filled_vertices}}},
-      {"depth_maps", views}};
+  const Eigen::Vector3d& offset = run.scene.offset;
+  const Json all = {{"version", version()},
+                    {"device", report.device},
+                    {"scene",
+                     {{"views", run.scene.views.size()},
+                      {"bounds", {point(run.scene.bounds.low + offset), point(run.scene.bounds.high + offset)}},
+                      {"offset", point(offset)},
+                      {"notes", run.scene.notes},
+                      {"photographs", photographs}}},
+                    {"options", json_of(run.options, RunStage::kScene, RunStage::kExtras)},
+                    {"wall_seconds", report.wall_seconds},
+                    {"cpu_seconds", report.cpu_seconds},
+                    {"stages", stages},
+                    {"kernels", kernels},
+                    {"work",
+                     {{"sweep_windows", report.sweep.sweep_windows},
+                      {"sweep_samples", report.sweep.sweep_samples},
+                      {"refine_windows", report.sweep.refine_windows},
+                      {"refine_samples", report.sweep.refine_samples}}},
+                    {"memory_budget_bytes", report.memory_budget_bytes},
+                    {"estimated_memory_bytes", report.estimated_memory_bytes},
+                    {"peak_memory_bytes", report.peak_memory_bytes},
+                    {"volume",
+                     {{"voxel_size", report.voxel_size},
+                      {"truncation", report.truncation},
+                      {"blocks", report.blocks},
+                      {"block_views", report.block_views},
+                      {"slabs", report.slabs}}},
+                    {"mesh",
+                     {{"min_confidence", report.min_confidence},
+                      {"extracted_triangles", report.extracted_triangles},
+                      {"triangles", report.triangles},
+                      {"vertices", report.vertices},
+                      {"pieces", report.pieces},
+                      {"filled_vertices", report.filled_vertices}}},
+                    {"kept_depth_maps", report.kept_depth_maps},
+                    {"kept_certainties", report.kept_certainties},
+                    {"depth_maps", views}};
   return all.dump(2) + "\n";
 }
 

@@ -3,16 +3,16 @@
 
 #include <string>
 
-#include "engine/pipeline/reconstruct.h"
-#include "engine/pipeline/run_report.h"
+#include "engine/pipeline/run.h"
 
 namespace quorum {
 
-/// The options as indented JSON text, each under its name on the command line with _ for -. Lengths are in scene units.
-std::string options_json(const ReconstructOptions& options);
+/// The options that change the result of a stage from first to last, as indented JSON text, each under its name with _
+/// for -; those that were not given are left out. Lengths are in scene units.
+std::string options_json(const RunOptions& options, RunStage first, RunStage last);
 
 /// The report as indented JSON text. Lengths are in scene units, times in seconds, memory in bytes. Stages overlap: see
 /// StageReport.
-std::string run_json(const Scene& scene, const ReconstructOptions& options, const RunReport& report);
+std::string run_json(const Run& run);
 
 }  // namespace quorum

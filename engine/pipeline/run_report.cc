@@ -14,10 +14,11 @@ void add_stage(RunReport& report, const StageReport& time) {
   stage->cpu_seconds += time.cpu_seconds;
 }
 
-StageTimer::StageTimer(RunReport& report, std::string name)
-    : report_(report), name_(std::move(name)), wall_start_(wall_seconds()), cpu_start_(foreground_cpu_seconds()) {}
+StageTimer::StageTimer(RunReport& report, const char* name)
+    : report_(report), name_(name), wall_start_(wall_seconds()), cpu_start_(foreground_cpu_seconds()) {}
 
 StageTimer::~StageTimer() {
+  if (name_ == nullptr) return;
   add_stage(report_, {name_, wall_seconds() - wall_start_, foreground_cpu_seconds() - cpu_start_});
 }
 

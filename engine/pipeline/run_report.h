@@ -29,14 +29,18 @@ struct ViewReport {
 struct RunReport {
   std::string device;
   std::vector<StageReport> stages;
-  double wall_seconds = 0.0;  ///< of the whole run
-  double cpu_seconds = 0.0;   ///< of the whole run, all threads
+  double wall_seconds = 0.0;            ///< of the whole run
+  double cpu_seconds = 0.0;             ///< of the whole run, all threads
+  std::uint64_t peak_memory_bytes = 0;  ///< of the process, so far
   std::vector<StageTime> kernels;
   SweepCounts sweep;
-  std::vector<ViewReport> views;
+  std::vector<ViewReport> views;  ///< whose depth map this run made
+  int kept_depth_maps = 0;        ///< that earlier runs made of the same
+  int kept_certainties = 0;
   double voxel_size = 0.0;  ///< scene units
   double truncation = 0.0;  ///< scene units
   std::uint64_t memory_budget_bytes = 0;
+  std::uint64_t estimated_memory_bytes = 0;  ///< that the process would hold at most (memory_estimates.h)
   std::uint64_t blocks = 0;
   int slabs = 0;                          ///< in which the volume was filled
   std::uint64_t block_views = 0;          ///< blocks near a view's surface, summed over the views
@@ -45,22 +49,24 @@ struct RunReport {
   std::uint64_t vertices = 0;
   std::uint64_t filled_vertices = 0;  ///< of these, where nothing was measured
   std::uint64_t triangles = 0;
+  std::uint64_t pieces = 0;  ///< of triangles that share vertices
 };
 
 /// Adds to the stage of that name, or as a new one.
 void add_stage(RunReport& report, const StageReport& time);
 
 /// Measures the stage from its making to its end, and adds it to the report (to a stage of that name, if there is one).
+/// name: null = nothing is measured.
 class StageTimer {
  public:
-  StageTimer(RunReport& report, std::string name);
+  StageTimer(RunReport& report, const char* name);
   ~StageTimer();
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
 
  private:
   RunReport& report_;
-  std::string name_;
+  const char* name_;
   double wall_start_;
   double cpu_start_;
 };

@@ -9,7 +9,8 @@
 namespace quorum {
 
 /// Renders the temple into a Middlebury folder: photographs, temple_par.txt, README.txt with the bounds, and the exact
-/// surface gt.ply. Makes the folder. Fails (kUsage) on options out of range and (kInput) if a file can't be written.
+/// surface gt.ply. Makes the folder; one that holds such a temple gets the new one. Fails (kUsage) on options out of
+/// range and (kInput) if a file can't be written, or would replace one that is not of a temple.
 Expected<void> synthesize_temple(const std::filesystem::path& folder, const TempleOptions& options);
 
 }  // namespace quorum

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+
+#include "engine/core/option.h"
+#include "engine/scene/ray_box.h"
 
 namespace quorum {
 namespace {
@@ -15,16 +17,7 @@ std::string format_point(const Eigen::Vector3d& point) {
 /// True if the ray from a camera through a pixel meets the box.
 bool ray_meets(const Camera& camera, double x, double y, const Bounds& bounds) {
   const Eigen::Vector3d origin = camera.center();
-  const Eigen::Vector3d ray = camera.unproject(x, y, 1.0) - origin;
-  double enter = 0.0;
-  double leave = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = (bounds.low[axis] - origin[axis]) / ray[axis];
-    const double b = (bounds.high[axis] - origin[axis]) / ray[axis];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-  }
-  return enter <= leave;
+  return !ray_in_box(origin, camera.unproject(x, y, 1.0) - origin, bounds).empty();
 }
 
 /// Tries 27 points of the box, which finds a small one, and 25 rays of the view, which find a large one.
@@ -45,15 +38,16 @@ bool sees(const View& view, const Bounds& bounds) {
 }  // namespace
 
 Expected<void> check_bounds(const Scene& scene) {
-  constexpr const char* kRemedy = "give them with --bounds \"x0 y0 z0 x1 y1 z1\"";
+  const std::string remedy = "give them with " + option_name("bounds") + " \"x0 y0 z0 x1 y1 z1\"";
   const Bounds& bounds = scene.bounds;
-  const std::string text = "bounds " + format_point(bounds.low) + " " + format_point(bounds.high);
+  const std::string text =
+      "bounds " + format_point(bounds.low + scene.offset) + " " + format_point(bounds.high + scene.offset);
   if (!bounds.valid() || !bounds.low.allFinite() || !bounds.high.allFinite())
     return failure(ErrorKind::kInput,
-                   fmt::format("{} are empty: each low coordinate must be below the high one; {}", text, kRemedy));
+                   fmt::format("{} are empty: each low coordinate must be below the high one; {}", text, remedy));
   if (std::ranges::none_of(scene.views, [&bounds](const View& view) { return sees(view, bounds); }))
     return failure(ErrorKind::kInput,
-                   fmt::format("no view sees the {}; check their unit and frame, or {}", text, kRemedy));
+                   fmt::format("no view sees the {}; check their unit and frame, or {}", text, remedy));
   return {};
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/option.h"
+
 namespace quorum {
 namespace {
 
@@ -39,8 +41,16 @@ bool shows(const View& view, const Eigen::Vector3d& point) {
   return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= view.width - 1 && pixel.y() <= view.height - 1;
 }
 
-/// The point nearest to all optical axes; nothing if these are about parallel.
+/// The point nearest to all optical axes; nothing if these are about parallel, or begin in one point.
 std::optional<Eigen::Vector3d> meeting_point(const std::vector<View>& views) {
+  constexpr double kRounding = 1e-9;
+  double extent = 0.0;
+  double magnitude = 0.0;
+  for (const View& view : views) {
+    extent = std::max(extent, (view.camera.center() - views.front().camera.center()).norm());
+    magnitude = std::max(magnitude, view.camera.center().norm());
+  }
+  if (extent <= kRounding * magnitude) return std::nullopt;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const View& view : views) {
@@ -58,13 +68,16 @@ Expected<Bounds> common_field_of_view(const Scene& scene) {
   constexpr int kPixels = 9;  // sampled along each side of an image
   constexpr int kDepths = 17;
   const auto refuse = [] {
-    return failure(
-        ErrorKind::kInput,
-        "the views have no common field of view; say where the object is with --bounds \"x0 y0 z0 x1 y1 z1\"");
+    return failure(ErrorKind::kInput, "the views have no common field of view; say where the object is with " +
+                                          option_name("bounds") + " \"x0 y0 z0 x1 y1 z1\"");
   };
   const bool ranges = std::ranges::all_of(scene.views, [](const View& view) { return view.far_depth > 0; });
   const auto meeting = meeting_point(scene.views);
-  if (!ranges && !meeting) return refuse();
+  if (!ranges) {  // views that look at one object show where their axes meet; those of a walk or a room don't
+    const auto seeing =
+        meeting ? std::ranges::count_if(scene.views, [&](const View& view) { return shows(view, *meeting); }) : 0;
+    if (4 * static_cast<std::size_t>(seeing) < 3 * scene.views.size()) return refuse();
+  }
   const std::size_t wanted = ranges ? 3 : std::max<std::size_t>(3, (scene.views.size() + 1) / 2);
   Bounds box{Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()),
              Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity())};

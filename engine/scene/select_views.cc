@@ -4,26 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <utility>
 
-namespace quorum {
+#include "engine/core/option.h"
+#include "engine/scene/parallax.h"
 
-Expected<void> SelectViewsOptions::check() const {
-  const auto wrong = [](std::string text) { return failure(ErrorKind::kUsage, std::move(text)); };
-  if (neighbor_count < 2 || neighbor_count > 32)
-    return wrong(fmt::format("--neighbors {}: give 2 to 32", neighbor_count));
-  if (!(min_angle_deg >= 0.0 && min_angle_deg <= 90.0))
-    return wrong(fmt::format("--min-angle {}: give 0 to 90 degrees", min_angle_deg));
-  if (!(max_angle_deg >= 1.0 && max_angle_deg <= 180.0))
-    return wrong(fmt::format("--max-angle {}: give 1 to 180 degrees", max_angle_deg));
-  return {};
-}
+namespace quorum {
 
 namespace {
 
-std::vector<int> select_by_angle(const Scene& scene, int reference, const SelectViewsOptions& options) {
+/// What can't be a neighbor, whatever a rule says.
+using Excluded = std::function<bool(int view)>;
+
+std::vector<int> select_by_angle(const Scene& scene, int reference, const SelectViewsOptions& options,
+                                 const Excluded& excluded) {
   const auto angle_between = [&](int a, int b) {
     return optical_axis_angle_deg(scene.views[static_cast<std::size_t>(a)].camera,
                                   scene.views[static_cast<std::size_t>(b)].camera);
@@ -34,15 +31,17 @@ std::vector<int> select_by_angle(const Scene& scene, int reference, const Select
     const double angle = angle_between(reference, view);
     if (angle >= options.min_angle_deg && angle <= options.max_angle_deg) candidates.emplace_back(angle, view);
   }
-  std::sort(candidates.begin(), candidates.end());
+  // A heap, since of many candidates a few are looked at.
+  std::ranges::make_heap(candidates, std::greater());
 
   std::vector<int> chosen;
-  for (const auto& [angle, view] : candidates) {
-    if (static_cast<int>(chosen.size()) == options.neighbor_count) break;
-    const bool apart = std::all_of(chosen.begin(), chosen.end(), [&, candidate = view](int other) {
-      return angle_between(candidate, other) >= options.min_angle_deg;
-    });
-    if (apart) chosen.push_back(view);
+  while (!candidates.empty() && static_cast<int>(chosen.size()) < options.neighbor_count) {
+    std::ranges::pop_heap(candidates, std::greater());
+    const int view = candidates.back().second;
+    candidates.pop_back();
+    const bool apart = std::all_of(chosen.begin(), chosen.end(),
+                                   [&](int other) { return angle_between(view, other) >= options.min_angle_deg; });
+    if (apart && !excluded(view)) chosen.push_back(view);
   }
   return chosen;
 }
@@ -51,25 +50,12 @@ std::vector<int> select_by_angle(const Scene& scene, int reference, const Select
 struct SharedPoint {
   std::size_t index = 0;      ///< in the list of the reference's points
   Eigen::Vector3d direction;  ///< from the point to the candidate
+  double angle_deg = 0.0;     ///< between the rays of the reference and of the candidate
   double weight = 0.0;
 };
 
 double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::acos(std::clamp(a.dot(b), -1.0, 1.0)) * 180.0 / std::numbers::pi;
-}
-
-/// How well two rays fix a point.
-double angle_weight(double angle) {
-  constexpr double kEnough = 10.0;
-  return std::min(1.0, angle * angle / (kEnough * kEnough));
-}
-
-/// ratio: pixels of the candidate to one of the reference, along a line.
-double resolution_weight(double ratio) { return ratio < 1.0 ? ratio : std::min(1.0, 2.0 / ratio); }
-
-double pixels_per_unit(const Camera& camera, const Eigen::Vector3d& point) {
-  const double depth = camera.to_camera(point).z();
-  return depth > 0 ? (camera.intrinsics(0, 0) + camera.intrinsics(1, 1)) / (2.0 * depth) : 0.0;
 }
 
 /// The points that each other view shares with the reference, with their first weights.
@@ -89,10 +75,19 @@ std::map<int, std::vector<SharedPoint>> shared_points(const Scene& scene, int re
       const double angle = angle_deg(direction, to_reference);
       if (angle > max_angle_deg) continue;
       const double ratio = pixels_per_unit(other, point.position) / resolution;
-      shared[view].push_back({index, direction, angle_weight(angle) * resolution_weight(ratio)});
+      shared[view].push_back({index, direction, angle, angle_weight(angle) * resolution_weight(ratio)});
     }
     ++index;
   }
+  const double least_deg = least_parallax_deg(camera);
+  std::erase_if(shared, [&](auto& candidate) {
+    auto& points = candidate.second;
+    std::vector<double> angles;
+    for (const SharedPoint& point : points) angles.push_back(point.angle_deg);
+    const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
+    std::nth_element(angles.begin(), middle, angles.end());
+    return *middle < least_deg;
+  });
   return shared;
 }
 
@@ -124,25 +119,73 @@ std::vector<int> select_by_points(const Scene& scene, int reference, const Selec
     }
     if (chosen.empty()) first_score = best_score;
     if (best < 0 || best_score < kLeastShare * first_score) break;
-    chosen.push_back(best);
     const std::vector<SharedPoint> taken = std::move(candidates[best]);
     candidates.erase(best);
+    if (is_copy(scene, best)) continue;
+    chosen.push_back(best);
     for (auto& [view, points] : candidates) weigh_down_what_is_seen(points, taken);
   }
   return chosen;
 }
 
+/// Copies and views from the reference's place.
+Excluded blind_to(const Scene& scene, int reference) {
+  const Camera& camera = scene.views[static_cast<std::size_t>(reference)].camera;
+  return [&scene, &camera,
+          points = sample_rays(scene.views[static_cast<std::size_t>(reference)], scene.bounds)](int view) {
+    const Camera& other = scene.views[static_cast<std::size_t>(view)].camera;
+    return (!points.empty() && parallax_deg(points, other.center()) < least_parallax_deg(camera)) ||
+           is_copy(scene, view);
+  };
+}
+
+std::vector<int> select_given(const Scene& scene, int reference, const SelectViewsOptions& options) {
+  std::vector<int> chosen = scene.views[static_cast<std::size_t>(reference)].neighbors;
+  std::erase_if(chosen, blind_to(scene, reference));
+  if (chosen.size() > static_cast<std::size_t>(options.neighbor_count))
+    chosen.resize(static_cast<std::size_t>(options.neighbor_count));
+  return chosen;
+}
+
+/// By the paper's rule where it is not blind: where the views it takes have half the parallax of the best ones.
+std::vector<int> select_by_cameras(const Scene& scene, int reference, const SelectViewsOptions& options) {
+  constexpr double kBlind = 0.5;
+  std::vector<int> by_angle = select_by_angle(scene, reference, options, blind_to(scene, reference));
+  std::vector<int> by_parallax = select_by_parallax(scene, reference, options.neighbor_count, options.max_angle_deg);
+  const auto score = [&](const std::vector<int>& neighbors) {
+    return parallax_score(scene, reference, neighbors, options.max_angle_deg);
+  };
+  return score(by_angle) < kBlind * score(by_parallax) ? by_parallax : by_angle;
+}
+
 }  // namespace
 
 std::vector<int> select_views(const Scene& scene, int reference, const SelectViewsOptions& options) {
-  const std::vector<int>& given = scene.views[static_cast<std::size_t>(reference)].neighbors;
-  if (options.rule == ViewRule::kAutomatic && !given.empty()) {
-    const std::size_t count = std::min(given.size(), static_cast<std::size_t>(options.neighbor_count));
-    return {given.begin(), given.begin() + static_cast<std::ptrdiff_t>(count)};
-  }
-  if (options.rule == ViewRule::kPoints || (options.rule == ViewRule::kAutomatic && !scene.points.empty()))
-    return select_by_points(scene, reference, options);
-  return select_by_angle(scene, reference, options);
+  if (options.rule == ViewRule::kAngle) return select_by_angle(scene, reference, options, [](int) { return false; });
+  if (is_copy(scene, reference)) return {};
+  if (options.rule == ViewRule::kPoints) return select_by_points(scene, reference, options);
+  if (options.rule == ViewRule::kParallax)
+    return select_by_parallax(scene, reference, options.neighbor_count, options.max_angle_deg);
+  constexpr std::size_t kEnough = 2;  // the paper, 4.3: every point is seen in at least three views
+  std::vector<int> chosen = select_given(scene, reference, options);
+  if (chosen.size() < kEnough && !scene.points.empty()) chosen = select_by_points(scene, reference, options);
+  if (chosen.size() < kEnough) chosen = select_by_cameras(scene, reference, options);
+  return chosen;
+}
+
+Error no_neighbors_error(const Scene& scene, const SelectViewsOptions& options) {
+  const auto from_one_place = [&](const View& view) {
+    const auto points = sample_rays(view, scene.bounds);
+    return std::ranges::all_of(scene.views, [&](const View& other) {
+      return parallax_deg(points, other.camera.center()) < least_parallax_deg(view.camera);
+    });
+  };
+  if (options.rule != ViewRule::kAngle && scene.views.size() > 1 && std::ranges::all_of(scene.views, from_one_place))
+    return {ErrorKind::kInput,
+            "all photographs are from about one place, which shows no depth; take them from places that are apart by a "
+            "tenth of the distance to the object, or check the unit of the bounds"};
+  return {ErrorKind::kInput, "no view has two neighbor views; give photographs taken from closer directions, or " +
+                                 option_name("max-angle")};
 }
 
 }  // namespace quorum

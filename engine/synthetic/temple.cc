@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/core/check.h"
+#include "engine/core/option.h"
 #include "engine/synthetic/temple_solids.h"
 
 namespace quorum {
@@ -74,7 +75,7 @@ Expected<void> TempleOptions::check() const {
         Range{"noise", noise, 0, 64}, Range{"texture", texture, 0, 4}, Range{"gloss", gloss, 0, 1}}) {
     if (range.value >= range.low && range.value <= range.high) continue;
     return failure(ErrorKind::kUsage,
-                   fmt::format("--{} {}: give {} to {}", range.name, range.value, range.low, range.high));
+                   fmt::format("{} {}: give {} to {}", option_name(range.name), range.value, range.low, range.high));
   }
   return {};
 }

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/core/check.h"
-#include "engine/volume/block_on_surface.h"
+#include "engine/volume/voxel_on_surface.h"
 
 namespace quorum {
 namespace {
@@ -87,35 +86,6 @@ bool in_sight(const Grid<Tile>& tiles, const Grid<float>& depth, const Camera& c
   for (int i = 0; i < count; ++i) mark(work.voxel[i], before[i]);
 }
 
-using BlockFunction = void (*)(const CarvingSurface&, const IntegrateParams&, int, int, int, BlockBits&);
-
-void carve_block_baseline(const CarvingSurface& surface, const IntegrateParams& params, int x, int y, int z,
-                          BlockBits& empty) {
-  carve_block_body(surface, params, x, y, z, empty);
-}
-
-#ifdef __x86_64__
-[[gnu::target("arch=x86-64-v3")]] void carve_block_avx2(const CarvingSurface& surface, const IntegrateParams& params,
-                                                        int x, int y, int z, BlockBits& empty) {
-  carve_block_body(surface, params, x, y, z, empty);
-}
-
-[[gnu::target("arch=x86-64-v4,prefer-vector-width=512")]] void carve_block_avx512(const CarvingSurface& surface,
-                                                                                  const IntegrateParams& params, int x,
-                                                                                  int y, int z, BlockBits& empty) {
-  carve_block_body(surface, params, x, y, z, empty);
-}
-#endif
-
-BlockFunction choose_block_function(SimdLevel simd) {
-#ifdef __x86_64__
-  if (simd == SimdLevel::kAvx512) return carve_block_avx512;
-  if (simd == SimdLevel::kAvx2) return carve_block_avx2;
-#endif
-  static_cast<void>(simd);
-  return carve_block_baseline;
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> blocks_in_sight(const Grid<float>& depth, const Camera& camera, const VoxelGrid& grid) {
@@ -132,16 +102,12 @@ std::vector<std::uint32_t> blocks_in_sight(const Grid<float>& depth, const Camer
 
 void carve_blocks(const CarvingSurface& surface, const std::vector<std::uint32_t>& list, const IntegrateParams& params,
                   SimdLevel simd, std::vector<BlockBits>& empty) {
-  QUORUM_CHECK_LE(static_cast<int>(simd), static_cast<int>(best_simd_level()));
   constexpr std::uint64_t kAll = ~std::uint64_t{0};
-  const BlockFunction carve_block = choose_block_function(simd);
+  const auto carve_block = simd_form<carve_block_body>(simd);
   tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t entry) {
     BlockBits& bits = empty[list[entry]];
     if (std::ranges::all_of(bits, [](std::uint64_t word) { return word == kAll; })) return;
-    const auto index = static_cast<int>(list[entry]);
-    const int x = index % params.blocks[0] * kBlockSide;
-    const int y = index / params.blocks[0] % params.blocks[1] * kBlockSide;
-    const int z = index / (params.blocks[0] * params.blocks[1]) * kBlockSide;
+    const auto [x, y, z] = first_voxel(params, list[entry]);
     carve_block(surface, params, x, y, z, bits);
   });
 }

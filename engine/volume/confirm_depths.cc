@@ -8,6 +8,7 @@
 #include "engine/core/check.h"
 #include "engine/core/exact.h"
 #include "engine/depth/plane_warp.h"
+#include "engine/volume/cell.h"
 #include "engine/volume/range_surface.h"
 
 namespace quorum {

@@ -1,8 +1,6 @@
 // Options of the fusion stages.
 #pragma once
 
-#include "engine/core/error.h"
-
 namespace quorum {
 
 /// Along which direction the volume's signed distance is measured.
@@ -21,9 +19,6 @@ struct FusionOptions {
   bool weigh_slant = true;       ///< less at grazing angles
   bool weigh_border = true;      ///< less near borders of its range surface
   bool fill_holes = false;       ///< close holes by space carving
-
-  /// Names the first option that is out of its range, and the range. kUsage.
-  [[nodiscard]] Expected<void> check() const;
 };
 
 }  // namespace quorum

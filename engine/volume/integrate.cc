@@ -1,6 +1,6 @@
 // How a block is filled: in phases over plain arrays, so that the compiler vectorizes all but reads and the last sums.
 // All voxels of the block are projected; those that land in a triangle go on; of these, those within the truncation;
-// and only they take weight and color. The whole is compiled for three instruction sets and chosen at run time.
+// and only they take weight and color. The whole is compiled for each SIMD level.
 #include "engine/volume/integrate.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "engine/core/check.h"
-#include "engine/volume/block_on_surface.h"
+#include "engine/volume/voxel_on_surface.h"
 
 namespace quorum {
 namespace {
@@ -21,8 +21,8 @@ struct Workspace : BlockOnSurface {
   // Of those within the truncation.
   std::uint32_t word[4][kBlockVoxels];  // weights of the cell, then texels of the image
   std::int32_t texel_index[kBlockVoxels];
-  std::uint32_t texel_fraction_x[kBlockVoxels];  // 1/256 pixel
-  std::uint32_t texel_fraction_y[kBlockVoxels];
+  int texel_u[kBlockVoxels];  // 1/256 pixel
+  int texel_v[kBlockVoxels];
   std::int32_t sum[kVoxelWords][kBlockVoxels];  // what is added to the voxel
 };
 
@@ -73,8 +73,8 @@ constexpr std::int32_t kFar = -2 * kDistanceScale;
   for (int i = 0; i < count; ++i) {
     const float u = work.u[i];
     const float v = work.v[i];
-    const float fraction_x = u - static_cast<float>(static_cast<int>(u));
-    const float fraction_y = v - static_cast<float>(static_cast<int>(v));
+    const float fraction_x = fraction_in_cell(u);
+    const float fraction_y = fraction_in_cell(v);
     const auto corner = [&](int index) {
       return static_cast<float>(static_cast<std::int32_t>(work.word[index][i] & kWeightScale));
     };
@@ -84,9 +84,9 @@ constexpr std::int32_t kFar = -2 * kDistanceScale;
                          0.5F);
     const int iu = static_cast<int>(u * static_cast<float>(kPositionScale) + 0.5F);
     const int iv = static_cast<int>(v * static_cast<float>(kPositionScale) + 0.5F);
-    work.texel_index[i] = (iv >> kPositionBits) * stride + (iu >> kPositionBits);
-    work.texel_fraction_x[i] = static_cast<std::uint32_t>(iu & (kPositionScale - 1));
-    work.texel_fraction_y[i] = static_cast<std::uint32_t>(iv & (kPositionScale - 1));
+    work.texel_index[i] = texel_index(iu, iv, stride);
+    work.texel_u[i] = iu;
+    work.texel_v[i] = iv;
     work.sum[0][i] = weight;
     work.sum[1][i] = weight * work.signed_distance[i];
   }
@@ -103,8 +103,8 @@ constexpr std::int32_t kFar = -2 * kDistanceScale;
     work.word[3][i] = texel[stride + 1];
   }
   for (int i = 0; i < count; ++i) {
-    const Sample sample = interpolate_texels(work.word[0][i], work.word[1][i], work.word[2][i], work.word[3][i],
-                                             work.texel_fraction_x[i], work.texel_fraction_y[i], kSampleShift);
+    const Sample sample = sample_bilinear(work.word[0][i], work.word[1][i], work.word[2][i], work.word[3][i],
+                                          work.texel_u[i], work.texel_v[i], kSampleShift);
     const auto in_8_bits = [](std::int32_t value) { return std::min((value + 2048 + 8) >> 4, 255); };
     work.sum[2][i] = work.sum[0][i] * in_8_bits(sample.red);
     work.sum[3][i] = work.sum[0][i] * in_8_bits(sample.green);
@@ -132,37 +132,6 @@ void add_to_block(int count, const Workspace& work, Voxel* block) {
   weigh(surface.image, near, work);
   color(surface.image, near, work);
   add_to_block(near, work, block);
-}
-
-using BlockFunction = void (*)(const WeightedSurface&, const IntegrateParams&, int, int, int, Voxel*);
-
-void integrate_block_baseline(const WeightedSurface& surface, const IntegrateParams& params, int x, int y, int z,
-                              Voxel* block) {
-  integrate_block_body(surface, params, x, y, z, block);
-}
-
-#ifdef __x86_64__
-[[gnu::target("arch=x86-64-v3")]] void integrate_block_avx2(const WeightedSurface& surface,
-                                                            const IntegrateParams& params, int x, int y, int z,
-                                                            Voxel* block) {
-  integrate_block_body(surface, params, x, y, z, block);
-}
-
-[[gnu::target("arch=x86-64-v4,prefer-vector-width=512")]] void integrate_block_avx512(const WeightedSurface& surface,
-                                                                                      const IntegrateParams& params,
-                                                                                      int x, int y, int z,
-                                                                                      Voxel* block) {
-  integrate_block_body(surface, params, x, y, z, block);
-}
-#endif
-
-BlockFunction choose_block_function(SimdLevel simd) {
-#ifdef __x86_64__
-  if (simd == SimdLevel::kAvx512) return integrate_block_avx512;
-  if (simd == SimdLevel::kAvx2) return integrate_block_avx2;
-#endif
-  static_cast<void>(simd);
-  return integrate_block_baseline;
 }
 
 }  // namespace
@@ -203,13 +172,9 @@ std::vector<BlockSlot> find_slots(const std::vector<std::uint32_t>& blocks, cons
 
 void integrate(const WeightedSurface& surface, const std::vector<BlockSlot>& list, const IntegrateParams& params,
                SimdLevel simd, std::vector<Voxel>& voxels) {
-  QUORUM_CHECK_LE(static_cast<int>(simd), static_cast<int>(best_simd_level()));
-  const BlockFunction integrate_block = choose_block_function(simd);
+  const auto integrate_block = simd_form<integrate_block_body>(simd);
   tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t entry) {
-    const auto index = static_cast<int>(list[entry].index);
-    const int x = index % params.blocks[0] * kBlockSide;
-    const int y = index / params.blocks[0] % params.blocks[1] * kBlockSide;
-    const int z = index / (params.blocks[0] * params.blocks[1]) * kBlockSide;
+    const auto [x, y, z] = first_voxel(params, list[entry].index);
     integrate_block(surface, params, x, y, z,
                     voxels.data() + static_cast<std::size_t>(list[entry].slot) * kBlockVoxels);
   });

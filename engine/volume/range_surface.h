@@ -15,14 +15,6 @@ namespace quorum {
 
 RangeSurfaceParams make_range_surface_params(const Camera& camera, int width, int height, const FusionOptions& options);
 
-/// True if both depths exist and differ by no more than the slope allows over pixels of image distance.
-/// Twin: joined in shaders/lib/cell.glsl.
-inline bool joined(float a, float b, float max_step, float pixels) {
-  const float nearer = a < b ? a : b;
-  const float difference = a < b ? b - a : a - b;
-  return nearer > 0.0F && difference <= (max_step * nearer) * pixels;
-}
-
 /// Bits kCell… of the cell whose first pixel is (x, y), for every pixel; 0 in the last column and row.
 Grid<std::uint32_t> range_surface(const Grid<float>& depth, const RangeSurfaceParams& params);
 

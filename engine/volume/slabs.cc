@@ -8,13 +8,13 @@
 
 namespace quorum {
 
-Slab make_slab(const std::vector<std::uint32_t>& blocks, std::size_t first, const VoxelGrid& grid,
+Slab make_slab(const std::vector<std::uint32_t>& blocks, std::size_t first, std::size_t end, const VoxelGrid& grid,
                std::size_t max_blocks) {
   QUORUM_CHECK_GE(max_blocks, kLeastSlabBlocks);
   std::set<std::uint32_t> beside;  // stored neighbors of the core that lie behind its last block
-  std::size_t end = first;
-  for (; end < blocks.size(); ++end) {
-    const std::uint32_t block = blocks[end];
+  std::size_t last = first;
+  for (; last < end; ++last) {
+    const std::uint32_t block = blocks[last];
     const auto position = grid.block_position(block);
     std::vector<std::uint32_t> added;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -24,15 +24,15 @@ Slab make_slab(const std::vector<std::uint32_t>& blocks, std::size_t first, cons
       if (std::binary_search(blocks.begin(), blocks.end(), neighbor) && !beside.contains(neighbor))
         added.push_back(neighbor);
     }
-    const std::size_t count = end + 1 - first + beside.size() - beside.count(block) + added.size();
+    const std::size_t count = last + 1 - first + beside.size() - beside.count(block) + added.size();
     if (count > max_blocks) break;
     beside.erase(block);
     beside.insert(added.begin(), added.end());
   }
   Slab slab;
-  slab.core_count = end - first;
+  slab.core_count = last - first;
   slab.blocks.assign(blocks.begin() + static_cast<std::ptrdiff_t>(first),
-                     blocks.begin() + static_cast<std::ptrdiff_t>(end));
+                     blocks.begin() + static_cast<std::ptrdiff_t>(last));
   std::ranges::copy(beside, std::back_inserter(slab.blocks));
   return slab;
 }

@@ -19,9 +19,9 @@ struct Slab {
 /// A block and its three neighbors.
 constexpr std::size_t kLeastSlabBlocks = 4;
 
-/// The slab whose core begins at blocks[first] and is as long as it can be with max_blocks in all (kLeastSlabBlocks or
-/// more). blocks: all stored blocks, ascending. Empty if first is their end.
-Slab make_slab(const std::vector<std::uint32_t>& blocks, std::size_t first, const VoxelGrid& grid,
+/// The slab whose core begins at blocks[first] and is as long as it can be before blocks[end] with max_blocks in all
+/// (kLeastSlabBlocks or more). blocks: all stored blocks, ascending. Empty if first is the end.
+Slab make_slab(const std::vector<std::uint32_t>& blocks, std::size_t first, std::size_t end, const VoxelGrid& grid,
                std::size_t max_blocks);
 
 }  // namespace quorum

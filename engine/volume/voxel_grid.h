@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/core/error.h"
 #include "engine/scene/scene.h"
 #include "engine/volume/fusion_options.h"
 #include "shaders/layout.h"
@@ -35,8 +36,8 @@ struct VoxelGrid {
 
 /// The lattice over the scene's bounds and one truncation more on each side. Automatic voxel size: the median of a
 /// pixel's footprint at the sparse points within the bounds, over the views that see them, or, without points, at the
-/// center of the bounds, over all views; automatic truncation: 3 voxels, or 4 of
-/// a distance along the line of sight.
+/// center of the bounds, over all views, or, if a camera stands inside the bounds, at points on all views' rays
+/// (sample_rays); automatic truncation: 3 voxels, or 4 of a distance along the line of sight.
 /// Fails (kUsage) if the grid would have more than 2^30 blocks, or the truncation is out of 1.5..32 voxels.
 Expected<VoxelGrid> make_voxel_grid(const Scene& scene, const FusionOptions& options);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/core/exact.h"
+#include "engine/volume/cell.h"
 
 namespace quorum {
 namespace {

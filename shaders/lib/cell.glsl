@@ -1,4 +1,4 @@
-// Cells of a range surface: triangles and interpolation. Twins: engine/volume/range_surface.h, engine/volume/integrate.cc.
+// Cells of a range surface: triangles and interpolation. Twin: engine/volume/cell.h.
 
 const float kDiagonal = 1.41421356;
 

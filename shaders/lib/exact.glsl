@@ -1,4 +1,6 @@
 // Float operations that give the same bits on every device. Twin: engine/core/exact.h.
+#ifndef QUORUM_EXACT_GLSL
+#define QUORUM_EXACT_GLSL
 
 // 1 / x. x: positive, normal, 1e-30 to 1e30.
 float reciprocal(float x) {
@@ -52,3 +54,5 @@ float float_from_integer(Int64 value) {
   precise float magnitude = float(leading & 0xffffffu) * uintBitsToFloat(uint(127 + shift) << 23);
   return negative ? -magnitude : magnitude;
 }
+
+#endif

@@ -1,4 +1,5 @@
-// Which planes a pixel tries, and which it takes. Twins: engine/depth/plane_moves.h, engine/depth/score_planes.h.
+// Which planes a pixel tries, and which it takes. Twin: engine/depth/plane_moves.h.
+#include "lib/vote.glsl"
 
 const PlaneTrial kNoTrial = PlaneTrial(0.0, 0.0, 0.0, 0.0, 0);
 
@@ -25,11 +26,6 @@ bool may_take(PlaneTrial plane, InverseDepthRange range, float max_tilt) {
   precise float limit = max_tilt * plane.inverse_depth;
   return plane.inverse_depth >= range.farthest && plane.inverse_depth <= range.nearest && plane.slope_x >= -limit &&
          plane.slope_x <= limit && plane.slope_y >= -limit && plane.slope_y <= limit;
-}
-
-float confidence_of(float ncc_sum, int votes, float threshold, float confidence_scale) {
-  precise float confidence = (ncc_sum - float(votes) * threshold) * confidence_scale;
-  return confidence;
 }
 
 bool can_win(float ncc_sum, int votes, int left, float least_confidence, int min_votes, float threshold,

@@ -1,5 +1,5 @@
-// The kernel of vote_depth.comp and vote_depth_lanes.comp, which differ in how they read. An invocation takes four pixels
-// of a row of a block.
+// The kernel of vote_depth.comp and vote_depth_lanes.comp, which differ in how they read. An invocation takes four
+// pixels of a row of a block.
 #include "lib/vote.glsl"
 
 layout(local_size_x = 64, local_size_y = 1, local_size_z = 1) in;

@@ -1,6 +1,12 @@
 // A voxel against a range surface: where it projects, in which triangle, and how far before it it lies.
 // For kernels that declare IntegrateParams p and the buffers depth, cells and weights.
-// Twin: engine/volume/block_on_surface.h.
+// Twin: engine/volume/voxel_on_surface.h.
+
+// The first voxel of the block with this index.
+ivec3 first_voxel(int index) {
+  return kBlockSide *
+         ivec3(index % p.blocks[0], index / p.blocks[0] % p.blocks[1], index / (p.blocks[0] * p.blocks[1]));
+}
 
 // The projection, row by row.
 struct Projector {

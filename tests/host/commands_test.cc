@@ -1,7 +1,9 @@
 #include "host/commands.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <numeric>
 #include <vector>
@@ -24,17 +26,6 @@ class CommandsTest : public VulkanTest {
  protected:
   static Kernel kernel(std::string_view name, const std::vector<SpecConstant>& constants = {}) {
     return Kernel::create(device(), find_kernel(name, test_kernel_table()), constants).value();
-  }
-  template <typename T>
-  static Buffer buffer_of(const std::vector<T>& values) {
-    return Buffer::of(device(), values).value();
-  }
-  template <typename T>
-  static std::vector<T> content(const Buffer& buffer) {
-    std::vector<T> values(buffer.size() / sizeof(T));
-    const auto done = buffer.download(values);
-    if (!done) ADD_FAILURE() << done.error().message;
-    return values;
   }
 };
 
@@ -251,6 +242,75 @@ TEST_F(CommandsTest, TooManyWorkGroupsFailAtSubmitAndLeaveTheCommandsUsable) {
   commands.dispatch(saxpy, {1}, SaxpyParams{1, 4.0F}, {x, y});
   expect_success(commands.submit());
   EXPECT_EQ(content<float>(y), std::vector{5.0F});
+}
+
+constexpr std::uint64_t kTooLarge = std::uint64_t{1} << 60;
+
+TEST_F(CommandsTest, TheFirstFailureIsToldOnceAndNothingRunsAfterIt) {
+  const Kernel saxpy = kernel("saxpy");
+  const Buffer x = buffer_of(std::vector{3.0F});
+  Buffer y = buffer_of(std::vector{1.0F});
+  auto commands = Commands::create(device()).value();
+  commands.dispatch(saxpy, {1}, SaxpyParams{1, 1.0F}, {x, y});  // recorded, but never run
+  const Buffer none = commands.allocate(kTooLarge);
+  Buffer after = commands.upload(std::vector{5.0F});
+  EXPECT_EQ(none.size(), 0U);
+  EXPECT_EQ(after.size(), 0U);
+  EXPECT_EQ(commands.allocate_zeros(2 * kTooLarge).size(), 0U);
+  EXPECT_TRUE(commands.kernel("range_surface").empty());
+  commands.upload(std::vector{7.0F}, y, 0);
+  commands.upload(std::vector{7.0F}, after, 0);
+  commands.copy(x, y);
+  commands.copy(none, y);
+  commands.fill_zero(y);
+  commands.fill_zero(none);
+  commands.dispatch(saxpy, {1}, SaxpyParams{1, 1.0F}, {x, none});
+  commands.dispatch(Kernel(), {1}, {y});
+  const auto done = commands.submit();
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().kind, ErrorKind::kMemory);
+  EXPECT_NE(done.error().message.find(fmt::format("({} bytes)", kTooLarge)), std::string::npos) << done.error().message;
+  EXPECT_EQ(content<float>(y), std::vector{1.0F});
+  EXPECT_TRUE(commands.timings().empty());
+
+  expect_success(commands.submit());
+  commands.dispatch(saxpy, {1}, SaxpyParams{1, 2.0F}, {x, y});
+  expect_success(commands.submit());
+  EXPECT_EQ(content<float>(y), std::vector{7.0F});
+}
+
+TEST_F(CommandsTest, AFailureToMakeAKernelIsTheFirst) {
+  auto commands = Commands::create(device()).value();
+  const std::uint32_t too_many = device().info().max_work_group_invocations + 1;
+  EXPECT_TRUE(commands.kernel("sweep_depth", {{"kGroupSize", too_many}}).empty());
+  static_cast<void>(commands.allocate(kTooLarge));
+  const auto done = commands.submit();
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().kind, ErrorKind::kDevice);
+  EXPECT_NE(done.error().message.find("kernel sweep_depth"), std::string::npos) << done.error().message;
+  EXPECT_FALSE(commands.kernel("range_surface").empty());
+}
+
+TEST_F(CommandsTest, ADownloadRunsWhatWasRecorded) {
+  const Kernel saxpy = kernel("saxpy");
+  auto commands = Commands::create(device()).value();
+  const Buffer x = commands.upload(std::vector{3.0F, 4.0F});
+  Buffer y = commands.allocate_zeros(2 * sizeof(float));
+  commands.upload(std::vector{10.0F}, y, sizeof(float));
+  commands.dispatch(saxpy, {2}, SaxpyParams{2, 2.0F}, {x, y});
+  std::array<float, 2> received = {};
+  expect_success(commands.download(y, received));
+  EXPECT_EQ(received, (std::array{6.0F, 18.0F}));
+}
+
+TEST_F(CommandsTest, ADownloadAfterAFailureTellsItAndLeavesTheValues) {
+  auto commands = Commands::create(device()).value();
+  const Buffer none = commands.allocate(kTooLarge);
+  std::array received = {1.0F, 2.0F};
+  const auto done = commands.download(none, received);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().kind, ErrorKind::kMemory);
+  EXPECT_EQ(received, (std::array{1.0F, 2.0F}));
 }
 
 TEST_F(CommandsTest, ASubmissionBeyondItsTimeoutFailsAndTheNextOneWorks) {

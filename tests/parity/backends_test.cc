@@ -6,6 +6,7 @@
 #include "engine/pipeline/cpu_backend.h"
 #include "host/vulkan_backend.h"
 #include "tests/parity/parity_test.h"
+#include "tests/support/outside_task.h"
 #include "tests/support/sphere_scene.h"
 
 namespace quorum {
@@ -88,7 +89,7 @@ TEST_F(BackendsParity, ImagesOfDifferentSizesGiveEqualDepthMapsAndVolumes) {
       ASSERT_GT(std::ranges::count_if(twin.depth.values, [](float depth) { return depth > 0; }), 500);
       for (std::size_t i = 0; i < backends.size(); ++i) {
         const DepthMap on_device = backends[i]->sweep_depth(task).value();
-        const std::string what = fmt::format("{} view {} form {}", window_model_name(model), reference, i);
+        const std::string what = fmt::format("model {} view {} form {}", static_cast<int>(model), reference, i);
         ASSERT_TRUE(same_words(on_device.depth.values, twin.depth.values, width, what + " depth"));
         ASSERT_TRUE(same_words(on_device.correlation.values, twin.correlation.values, width, what + " correlation"));
         ASSERT_TRUE(same_words(on_device.confidence.values, twin.confidence.values, width, what + " confidence"));
@@ -117,11 +118,33 @@ TEST_F(BackendsParity, DepthMapsAreEqualWhereKernelsSeeLittleOfABuffer) {
     ASSERT_GT(task.ranges.values.size() * sizeof(PixelVote), limited.info().max_storage_buffer_range);
     const DepthMap twin = cpu.sweep_depth(task).value();
     const DepthMap on_device = backend->sweep_depth(task).value();
-    const std::string what = fmt::format("{}", window_model_name(model));
+    const std::string what = fmt::format("model {}", static_cast<int>(model));
     ASSERT_GT(std::ranges::count_if(twin.depth.values, [](float depth) { return depth > 0; }), 500);
     ASSERT_TRUE(same_words(on_device.depth.values, twin.depth.values, 170, what + " depth"));
     ASSERT_TRUE(same_words(on_device.correlation.values, twin.correlation.values, 170, what + " correlation"));
     ASSERT_TRUE(same_words(on_device.confidence.values, twin.confidence.values, 170, what + " confidence"));
+  }
+  for (const std::string& message : limited.take_validation_messages()) ADD_FAILURE() << message;
+}
+
+TEST_F(BackendsParity, AViewThatKernelsCannotSeeFailsOnceAndASmallerOneIsSwept) {
+  constexpr std::uint64_t kLittle = 1U << 16;
+  const Device limited =
+      Device::open(device().info(), {.validation = true, .max_storage_buffer_range = kLittle}).value();
+  CpuBackend cpu;
+  for (const SweepForm form : {SweepForm::kGroups, SweepForm::kLanes}) {
+    const std::unique_ptr<VulkanBackend> backend = VulkanBackend::create(limited, form).value();
+    const bool groups = form == SweepForm::kGroups;  // these see photographs and planes whole
+    const auto large = backend->sweep_depth(make_sphere_task(make_sphere_scene(4, 170, 131, true, 9), 1, {}));
+    EXPECT_EQ(large.has_value(), !groups);
+    if (!large) {
+      EXPECT_EQ(large.error().kind, ErrorKind::kMemory);
+      EXPECT_EQ(large.error().message.find("a buffer of"), 0U) << large.error().message;
+    }
+    const SweepTask small = make_sphere_task(make_sphere_scene(4, 53, 37, true, 9), 1, {});
+    const auto swept = backend->sweep_depth(small);
+    ASSERT_TRUE(swept) << swept.error().message;
+    ASSERT_TRUE(same_words(swept->depth.values, cpu.sweep_depth(small).value().depth.values, 53, "depth"));
   }
   for (const std::string& message : limited.take_validation_messages()) ADD_FAILURE() << message;
 }
@@ -134,13 +157,16 @@ TEST_F(BackendsParity, DepthMapsAreEqualInEveryForm) {
                                             {3, WindowModel::kAxis, 3U},
                                             {5, WindowModel::kPlane, 4U},
                                             {5, WindowModel::kSlanted, 5U},
-                                            {9, WindowModel::kSlanted, 6U}}) {
-    const SphereScene sphere = make_sphere_scene(5, 97, 71, model != WindowModel::kAxis, seed);
+                                            {9, WindowModel::kSlanted, 6U},
+                                            {5, WindowModel::kSlanted, 7U}}) {
+    SphereScene sphere = make_sphere_scene(5, 97, 71, model != WindowModel::kAxis, seed);
+    if (seed == 7U) sphere.scene.bounds.high.z() = -0.7;  // the sphere goes on beyond
     SweepOptions options;
     options.window = window;
     options.window_model = model;
     options.refinement = seed == 4U ? 1 : 10;
-    const SweepTask task = make_sphere_task(sphere, 2, options);
+    SweepTask task = make_sphere_task(sphere, 2, options);
+    if (seed == 7U) look_outside(sphere, 2, task);
     const DepthMap twin = cpu.sweep_depth(task).value();
     for (std::size_t i = 0; i < backends.size(); ++i) {
       if (model == WindowModel::kAxis && i > 0) continue;  // there is one form for it

@@ -26,17 +26,6 @@ class ParityTest : public VulkanTest {
   static Kernel test_kernel(std::string_view name) {
     return Kernel::create(device(), find_kernel(name, test_kernel_table())).value();
   }
-  template <PlainValues Range>
-  static Buffer buffer_of(const Range& values) {
-    return Buffer::of(device(), values).value();
-  }
-  template <typename T>
-  static std::vector<T> content(const Buffer& buffer) {
-    std::vector<T> values(buffer.size() / sizeof(T));
-    const auto done = buffer.download(values);
-    if (!done) ADD_FAILURE() << done.error().message;
-    return values;
-  }
   static Commands make_commands() { return Commands::create(device()).value(); }
   static void submit(Commands& commands) {
     const auto done = commands.submit();

@@ -6,6 +6,7 @@
 
 #include "engine/depth/plane_moves.h"
 #include "engine/depth/score_planes.h"
+#include "engine/depth/vote_depth.h"
 #include "tests/parity/parity_test.h"
 #include "tests/support/sphere_scene.h"
 

@@ -63,7 +63,7 @@ class RefinePlanesLanesParity : public ParityTest {
     const int height = task.ranges.height;
     const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
     const int window = task.options.window;
-    const Grid<InverseDepthRange> ranges = inverse_depth_ranges(task.ranges, task.planes);
+    const Grid<InverseDepthRange> ranges = inverse_depth_ranges(task);
     const Grid<SupportWindow> supports = make_support_windows(*task.reference, window, task.options.support_tolerance);
     std::mt19937 random(seed);
     const Grid<PixelPlane> last = random_planes(random, task);
@@ -165,7 +165,7 @@ TEST_F(RefinePlanesLanesParity, TheStageGivesThePlanesOfTheTwinWhereKernelsSeeLi
     const Device limited =
         Device::open(device().info(), {.validation = true, .max_storage_buffer_range = range}).value();
     Commands commands = Commands::create(limited).value();
-    PlaneLanesStage stage(limited, commands);
+    PlaneLanesStage stage(commands);
     ASSERT_TRUE(stage.fits(task));
     Grid<PixelPlane> planes = stage.run(task, first_pass).value();
     for (const std::string& message : limited.take_validation_messages()) ADD_FAILURE() << message;

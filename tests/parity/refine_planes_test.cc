@@ -14,7 +14,7 @@ class RefinePlanesParity : public ParityTest {
     const SphereScene sphere = make_sphere_scene(4, width, height, true, seed);
     const SweepTask task = make_sphere_task(sphere, 1, {});
     const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
-    const Grid<InverseDepthRange> ranges = inverse_depth_ranges(task.ranges, task.planes);
+    const Grid<InverseDepthRange> ranges = inverse_depth_ranges(task);
     std::mt19937 random(seed);
     Grid<PixelPlane> last = random_planes(random, task);
     Grid<PixelPlane> best = random_planes(random, task);

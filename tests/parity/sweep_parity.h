@@ -1,6 +1,7 @@
 // The comparison of the kernels that sweep, sweep_depth and sweep_depth_lanes, with their common twin.
 #pragma once
 
+#include "engine/depth/ncc_from_sums.h"
 #include "engine/depth/reference_windows.h"
 #include "engine/depth/refine_depth.h"
 #include "host/depth_stage.h"

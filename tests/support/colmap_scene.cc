@@ -27,6 +27,15 @@ std::vector<double> parameters_of(const ColmapCameraModel& model, int width) {
       {"FULL_OPENCV", {0.1, 0.02, 0.002, -0.003, 0.001, 0.2, 0.01, 0.002}},
       {"SIMPLE_RADIAL_FISHEYE", {0.03}},
       {"RADIAL_FISHEYE", {0.03, -0.01}},
+      {"FOV", {0.9}},
+      {"THIN_PRISM_FISHEYE", {0.02, -0.01, 0.002, -0.003, 0.004, -0.001, 0.003, -0.002}},
+      {"RAD_TAN_THIN_PRISM_FISHEYE",
+       {0.02, -0.01, 0.004, 0.002, -0.001, 0.0005, 0.002, -0.003, 0.003, -0.001, -0.002, 0.001}},
+      {"SIMPLE_DIVISION", {-0.2}},
+      {"DIVISION", {0.1}},
+      {"SIMPLE_FISHEYE", {}},
+      {"FISHEYE", {}},
+      {"EUCM", {0.6, 1.1}},
   };
   std::vector<double> parameters = {70.0};
   if (model.focal_count == 2) parameters.push_back(72.0);
@@ -62,7 +71,38 @@ Eigen::Vector2d project(const ColmapCamera& camera, const Eigen::Vector3d& point
     const double y = v * radial + 2 * p[7] * u * v + p[6] * (r2 + 2 * v * v);
     return {p[0] * x + p[2], p[1] * y + p[3]};
   }
+  if (name == "FOV") {
+    const double factor = std::atan(std::sqrt(r2) * 2 * std::tan(p[4] / 2)) / (std::sqrt(r2) * p[4]);
+    return {p[0] * u * factor + p[2], p[1] * v * factor + p[3]};
+  }
+  if (name == "SIMPLE_DIVISION" || name == "DIVISION") {
+    // Where the undistorted ray of a distorted one, x / (1 + k x^2), is this one.
+    const std::size_t at = camera.model->focal_count;
+    const double k = p[at + 2];
+    const double r = std::sqrt(r2);
+    double bent = r;
+    for (int i = 0; i < 200; ++i) bent = r * (1 + k * bent * bent);
+    return {p[0] * u / r * bent + p[at], p[at - 1] * v / r * bent + p[at + 1]};
+  }
+  if (name == "EUCM") {
+    const double below = p[4] * std::sqrt(p[5] * r2 + 1) + 1 - p[4];
+    return {p[0] * u / below + p[2], p[1] * v / below + p[3]};
+  }
   const double theta = std::atan(std::sqrt(r2));
+  const double s = r2 > 0 ? theta / std::sqrt(r2) : 1.0;
+  if (name == "THIN_PRISM_FISHEYE") {
+    const double x = u * s, y = v * s, q = x * x + y * y;
+    const double radial = p[4] * q + p[5] * q * q + p[8] * std::pow(q, 3) + p[9] * std::pow(q, 4);
+    return {p[0] * (x + x * radial + 2 * p[6] * x * y + p[7] * (q + 2 * x * x) + p[10] * q) + p[2],
+            p[1] * (y + y * radial + 2 * p[7] * x * y + p[6] * (q + 2 * y * y) + p[11] * q) + p[3]};
+  }
+  if (name == "RAD_TAN_THIN_PRISM_FISHEYE") {
+    double radial = 1;
+    for (int i = 0; i < 6; ++i) radial += p[4 + static_cast<std::size_t>(i)] * std::pow(theta, 2 * i + 2);
+    const double x = u * s * radial, y = v * s * radial, q = x * x + y * y;
+    return {p[0] * (x + 2 * p[11] * x * y + p[10] * (q + 2 * x * x) + p[12] * q + p[13] * q * q) + p[2],
+            p[1] * (y + 2 * p[10] * x * y + p[11] * (q + 2 * y * y) + p[14] * q + p[15] * q * q) + p[3]};
+  }
   const std::size_t at = camera.model->focal_count;
   double bent = theta;
   for (std::size_t i = 0; i < camera.model->coefficient_count; ++i)

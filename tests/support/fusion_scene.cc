@@ -58,16 +58,19 @@ Expected<Mesh> FusionScene::fill(Backend& backend, RunReport& report, double mas
 
 Expected<Mesh> FusionScene::fuse(Backend& backend, RunReport& report, const FusionOptions& given,
                                  std::uint64_t memory_bytes, double mask_below) const {
-  FusionOptions options = given;
-  options.truncation = 0.3;
-  const VoxelGrid grid = make_voxel_grid(scene_, options).value();
+  RunOptions options;
+  options.fusion = given;
+  options.fusion.truncation = 0.3;
+  options.mask_below = mask_below;
+  options.confirm = false;
+  options.min_confidence = 0.0F;
+  options.memory_bytes = memory_bytes;
   const Workspace workspace = Workspace::open(folder_.path()).value();
-  std::vector<int> views;
-  for (std::size_t index = 0; index < scene_.views.size(); ++index) views.push_back(static_cast<int>(index));
-  const MemoryBudget budget(memory_bytes);
-  ImageStore images(scene_, 0, mask_below);
   Progress progress;
-  return fuse_views({scene_, views, grid, options, workspace, budget, backend, images, progress, report});
+  Run run{scene_, options, backend, workspace, progress};
+  auto mesh = fuse_views(run, run.views_with_depth_map().value());
+  report = run.report;
+  return mesh;
 }
 
 }  // namespace quorum

@@ -14,8 +14,13 @@
 namespace quorum {
 namespace {
 
-void redirect(const std::string& path, int descriptor) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+/// given: the setting, else path.
+void redirect(const std::string& given, const std::string& path, int descriptor) {
+  if (given == "-") {
+    ::close(descriptor);
+    return;
+  }
+  const int file = ::open((given.empty() ? path : given).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
   ::dup2(file, descriptor);
   ::close(file);
 }
@@ -35,14 +40,14 @@ Program::Program(const std::filesystem::path& program, const std::vector<std::st
   process_ = ::fork();
   if (process_ < 0) ADD_FAILURE() << "can't start " << name;
   if (process_ != 0) return;
-  redirect(out, STDOUT_FILENO);
-  redirect(err, STDERR_FILENO);
+  redirect(setting.out, out, STDOUT_FILENO);
+  redirect(setting.err, err, STDERR_FILENO);
+  std::signal(SIGHUP, SIG_DFL);  // also where the tests run under nohup
   ::setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
   for (const auto& [variable, value] : setting.environment) ::setenv(variable.c_str(), value.c_str(), 1);
   if (setting.file_size_limit > 0) {
     const rlimit limit{setting.file_size_limit, setting.file_size_limit};
     ::setrlimit(RLIMIT_FSIZE, &limit);
-    std::signal(SIGXFSZ, SIG_IGN);  // the write fails instead
   }
   ::execv(name.c_str(), pointers.data());
   ::_exit(127);

@@ -77,6 +77,21 @@ SphereScene empty_sphere_scene() {
 
 }  // namespace
 
+SphereScene make_weak_sphere_scene(int views, int width, int height, unsigned seed) {
+  SphereScene sphere = make_sphere_scene(views, width, height, false, seed);
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> noise(-5, 5);
+  for (ColorImage& image : sphere.images) {
+    for (Rgba& pixel : image.values) {
+      const auto weak = [&](std::uint32_t value) {
+        return static_cast<std::uint32_t>(100 + static_cast<int>(value) / 6 + noise(random));
+      };
+      pixel = make_rgb(weak(red_of(pixel)), weak(green_of(pixel)), weak(blue_of(pixel)));
+    }
+  }
+  return sphere;
+}
+
 double sphere_depth(const View& view, double x, double y) {
   const Eigen::Vector3d origin = view.camera.center();
   const Eigen::Vector3d ray = view.camera.unproject(x, y, 1.0) - origin;

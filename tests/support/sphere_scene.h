@@ -24,6 +24,9 @@ SphereScene make_sphere_scene(int views, int width, int height, bool flip, unsig
 /// Cameras on a full circle, 4 units from the center, and one above and one below, all upright. As above otherwise.
 SphereScene make_surrounding_sphere_scene(int around, int width, int height, unsigned seed);
 
+/// As make_sphere_scene, all upright, with a texture that the noise of the photographs nearly hides.
+SphereScene make_weak_sphere_scene(int views, int width, int height, unsigned seed);
+
 /// Depth of the sphere at a pixel of a view, 0 where the ray misses it.
 double sphere_depth(const View& view, double x, double y);
 

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <span>
+#include <vector>
 
+#include "host/buffer.h"
 #include "host/device.h"
 #include "host/kernel_table.h"
 
@@ -23,6 +25,19 @@ class VulkanTest : public testing::Test {
 
   /// The device, opened once per test program.
   static const Device& device();
+
+  /// A buffer on the device that holds values, and what a buffer holds.
+  template <PlainValues Range>
+  static Buffer buffer_of(const Range& values) {
+    return Buffer::of(device(), values).value();
+  }
+  template <typename T>
+  static std::vector<T> content(const Buffer& buffer) {
+    std::vector<T> values(buffer.size() / sizeof(T));
+    const auto done = buffer.download(values);
+    if (!done) ADD_FAILURE() << done.error().message;
+    return values;
+  }
 };
 
 }  // namespace quorum

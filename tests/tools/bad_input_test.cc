@@ -20,6 +20,7 @@ class BadInput : public ToolTest {
   /// Reconstructs the scene; more comes behind the usual arguments.
   ProgramResult reconstruct(const std::vector<std::string>& more = {}, const ProgramSetting& setting = {}) {
     std::vector<std::string> arguments = {"reconstruct", scene().string(), "-o", result().string(), "--quiet"};
+    arguments.insert(arguments.end(), kKeepAll.begin(), kKeepAll.end());
     if (std::ranges::count(more, "--device") == 0) arguments.insert(arguments.end(), {"--device", "cpu"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return quorum_program(arguments, setting);
@@ -103,9 +104,9 @@ TEST_F(BadInput, WrongCountIsNamed) {
   expect_refused({"temple_par.txt:1", "9 views, but 8", "correct the count"});
 }
 
-TEST_F(BadInput, AbsentImageIsNamedWithItsLine) {
-  std::filesystem::remove(scene() / "temple0003.png");
-  expect_refused({"temple_par.txt:4", "temple0003.png", "add it"});
+TEST_F(BadInput, AbsentImagesAreNamedWithTheirLineWhereTooFewAreLeft) {
+  for (int i = 3; i <= 8; ++i) std::filesystem::remove(scene() / ("temple000" + std::to_string(i) + ".png"));
+  expect_refused({"temple_par.txt:4", "temple0003.png", "add it", "2 of 8"});
 }
 
 TEST_F(BadInput, IntrinsicsThatAreNoCameraAreRefused) {
@@ -130,19 +131,26 @@ TEST_F(BadInput, CutOffImageIsNamed) {
   expect_refused({"temple0005.png", "replace the file"});
 }
 
-TEST_F(BadInput, ImageOfAnotherSizeIsNamedWithBothSizes) {
+TEST_F(BadInput, AMiddleburyImageOfAnotherSizeIsTakenAtItsOwn) {
   const ProgramResult larger =
       quorum_program({"synthesize", below("larger").string(), "--views", "3", "--width", "80"});
   ASSERT_EQ(larger.exit_code, 0) << larger.err;
   std::filesystem::copy_file(below("larger") / "temple0002.png", scene() / "temple0004.png",
                              std::filesystem::copy_options::overwrite_existing);
-  expect_refused({"temple0004.png", "80 x 60", "64 x 48", "replace it"});
-  EXPECT_FALSE(std::filesystem::exists(result() / "depth" / "temple0004.depth.pfm"));
+  const ProgramResult taken = reconstruct();
+  EXPECT_EQ(taken.exit_code, 0) << taken.err;
+  EXPECT_TRUE(std::filesystem::exists(result() / "depth" / "temple0004.depth.pfm"));
 }
 
-TEST_F(BadInput, MissingBoundsAskForThem) {
+TEST_F(BadInput, MissingBoundsAreFound) {
   std::filesystem::remove(scene() / "README.txt");
-  expect_refused({"README.txt", "--bounds"});
+  const ProgramResult result = reconstruct();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(BadInput, AnEmptyMeshIsAFailure) {
+  expect_failure(reconstruct({"--threshold", "0.99", "--min-votes", "4"}), 3,
+                 {"mesh.ply", "the mesh is empty", "--bounds"});
 }
 
 TEST_F(BadInput, DamagedBoundsAreNamedWithTheirLine) {
@@ -236,10 +244,10 @@ TEST_F(BadInput, FuseWithoutDepthMapsAsksForThem) {
 
 TEST_F(BadInput, FuseRefusesADamagedDepthMap) {
   ASSERT_EQ(quorum_program({"depth", scene().string(), "-o", result().string(), "--device", "cpu"}).exit_code, 0);
-  write_text(result() / "depth" / "temple0002.confidence.pfm", "Pf\n64 48\n-1\nshort");
+  write_text(result() / "depth" / "temple0002.depth.pfm", "Pf\n64 48\n-1\nshort");
   std::filesystem::remove(result() / "run.json");
   expect_failure(quorum_program({"fuse", scene().string(), "-o", result().string(), "--device", "cpu", "--quiet"}), 3,
-                 {"temple0002.confidence.pfm"});
+                 {"temple0002.depth.pfm"});
   expect_nothing_half_written();
 }
 

@@ -6,8 +6,9 @@
 namespace quorum {
 namespace {
 
-const std::vector<std::string> kCommands = {"reconstruct", "depth",      "fuse",    "evaluate",
-                                            "render",      "synthesize", "devices", "bench"};
+const std::vector<std::string> kCommands = {"reconstruct", "depth",   "fuse",  "evaluate", "render",
+                                            "synthesize",  "devices", "bench", "status",   "confirm",
+                                            "join",        "plan",    "submit"};
 
 TEST(CommandLine, VersionIsPrinted) {
   const ProgramResult result = quorum_program({"--version"});
@@ -33,6 +34,20 @@ TEST(CommandLine, NothingTypedPrintsTheHelpAsAnError) {
 
 TEST(CommandLine, UnknownCommandIsNamed) {
   expect_failure(quorum_program({"recnstruct"}), 2, {"recnstruct", "quorum --help"});
+}
+
+TEST(CommandLine, MistypedCommandsAndOptionsGetASuggestion) {
+  expect_failure(quorum_program({"recnstruct"}), 2, {"did you mean reconstruct?"});
+  expect_failure(quorum_program({"stauts"}), 2, {"did you mean status?"});
+  expect_failure(quorum_program({"reconstruct", "scene", "-o", "o", "--widow", "5"}), 2, {"did you mean --window?"});
+  expect_failure(quorum_program({"fuse", "scene", "-o", "o", "--voxelsize=1mm"}), 2, {"did you mean --voxel-size?"});
+  EXPECT_FALSE(contains(quorum_program({"xyzzy"}).err, "did you mean"));
+}
+
+TEST(CommandLine, HelpOfACommandIsAlsoHelpCommand) {
+  EXPECT_EQ(quorum_program({"help", "fuse"}).out, quorum_program({"fuse", "--help"}).out);
+  EXPECT_EQ(quorum_program({"help"}).out, quorum_program({"--help"}).out);
+  expect_failure(quorum_program({"help", "fuze"}), 2, {"did you mean fuse?"});
 }
 
 TEST(CommandLine, EveryCommandHasHelp) {
@@ -81,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Reconstruct, WrongValues,
                                          WrongValue{{"--max-angle", "0"}, "1 to 180"},            //
                                          WrongValue{{"--window", "4"}, "3 to 15"},                //
                                          WrongValue{{"--second-window", "5"}, "above --window"},  //
-                                         WrongValue{{"--second-window", "8"}, "odd number"},      //
+                                         WrongValue{{"--second-window", "8"}, "5 to 15, odd"},    //
                                          WrongValue{{"--window-model", "disc"}, "axis"},          //
                                          WrongValue{{"--threshold", "1"}, "0 to 0.99"},           //
                                          WrongValue{{"--threshold", "nan"}, "0 to 0.99"},         //
@@ -93,12 +108,14 @@ INSTANTIATE_TEST_SUITE_P(Reconstruct, WrongValues,
                                          WrongValue{{"--step-pixels", "0.01"}, "0.05 to 8"},      //
                                          WrongValue{{"--support-tolerance", "256"}, "0 to 255"},  //
                                          WrongValue{{"--refinement", "33"}, "1 to 32"},           //
-                                         WrongValue{{"--mask-below", "1"}, "0 to 1"},             //
+                                         WrongValue{{"--mask-below", "1"}, "0 to 0.999"},         //
                                          WrongValue{{"--voxel-size", "inf"}, "positive"},         //
                                          WrongValue{{"--max-slope", "90"}, "10 to 89"},           //
                                          WrongValue{{"--feather", "9"}, "0 to 8"},                //
-                                         WrongValue{{"--min-confidence", "-1"}, "at least 0"},    //
-                                         WrongValue{{"--threads", "-1"}, "1 to 1024"},            //
+                                         WrongValue{{"--min-confidence", "-1"}, "0 or more"},     //
+                                         WrongValue{{"--min-component", "-1"}, "0 or more"},      //
+                                         WrongValue{{"--weights", "slant,none"}, "commas"},       //
+                                         WrongValue{{"--threads", "-1"}, "0 to 1024"},            //
                                          WrongValue{{"--tile", "4", "16"}, "8 to 64"},            //
                                          WrongValue{{"--simd", "mmx"}, "baseline"},               //
                                          WrongValue{{"--memory", "1"}, "512MiB"},                 //
@@ -125,6 +142,7 @@ TEST(CommandLine, WrongValuesOfOtherCommandsAreRefusedWithOptionAndRange) {
   expect_failure(quorum_program({"evaluate", "a.ply", "b.ply", "--threshold", "0"}), 2, {"--threshold", "positive"});
   expect_failure(quorum_program({"evaluate", "a.ply", "b.ply", "--distances", "x"}), 2, {"--distances", "positive"});
   expect_failure(quorum_program({"evaluate", "a.ply", "b.ply", "--samples", "0"}), 2, {"--samples", "1 to 100000000"});
+  expect_failure(quorum_program({"synthesize", "scene", "--seed", "-1"}), 2, {"--seed", "0 or more"});
   EXPECT_FALSE(std::filesystem::exists("scene"));
 }
 

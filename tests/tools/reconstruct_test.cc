@@ -155,7 +155,7 @@ TEST_F(Reconstruct, ABudgetIsKeptAndLeavesEveryByteAlone) {
 
 TEST_F(Reconstruct, RunJsonTellsWhatWasDone) {
   const ProgramResult result =
-      run("reconstruct", "result", {"--device", "cpu", "--quiet", "--json", "--threshold", "0.75"});
+      run("reconstruct", "result", {"--device", "cpu", "--quiet", "--json", "--threshold", "0.6"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(result.out, file_bytes(below("result") / "run.json"));
@@ -164,7 +164,7 @@ TEST_F(Reconstruct, RunJsonTellsWhatWasDone) {
   ASSERT_FALSE(json.is_discarded()) << result.out;
   EXPECT_EQ("quorum " + json["version"].get<std::string>() + "\n", quorum_program({"--version"}).out);
   EXPECT_TRUE(json["device"].get<std::string>().starts_with("CPU"));
-  EXPECT_EQ(json["options"]["threshold"], 0.75);
+  EXPECT_EQ(json["options"]["threshold"], 0.6);
   EXPECT_EQ(json["options"]["depth_step"], "auto");
   EXPECT_EQ(json["scene"]["views"], 8);
   EXPECT_GT(json["volume"]["voxel_size"].get<double>(), 0.0);
@@ -244,15 +244,18 @@ TEST_F(Reconstruct, MeshIsNearTheTrueSurface) {
   std::filesystem::remove_all(scene());
   synthesize(16, 160);
   reconstruct("result", {"--device", "cpu"});
-  const ProgramResult evaluated =
-      quorum_program({"evaluate", (below("result") / "mesh.ply").string(), (scene() / "gt.ply").string(), "--threshold",
-                      "4mm", "--samples", "20000", "--json"});
+  const ProgramResult evaluated = quorum_program(
+      {"evaluate", (below("result") / "mesh.ply").string(), (scene() / "gt.ply").string(), "--threshold", "4mm",
+       "--samples", "20000", "--json", "--scene", scene().string(), "--workspace", below("result").string()});
   ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
   const auto json = nlohmann::json::parse(evaluated.out, nullptr, false);
   ASSERT_FALSE(json.is_discarded()) << evaluated.out;
   EXPECT_LT(json["accuracy"].get<double>(), 0.004);
   EXPECT_GT(json["accuracy"].get<double>(), 0.0);
   EXPECT_GT(json["completeness"].get<double>(), 0.6);
+  EXPECT_LT(json["seen_share"].get<double>(), 1.0);
+  EXPECT_GT(json["missed"]["samples"].get<int>(), 10000);
+  EXPECT_GT(json["missed"]["never_depth"].get<int>() + json["missed"]["wrong_depth"].get<int>(), 0);
 }
 
 TEST_F(Reconstruct, RenderDrawsTheMesh) {

@@ -41,6 +41,20 @@ TEST(Synthesize, HemisphereMovesTheCameras) {
   EXPECT_EQ(ring.at("gt.ply"), hemisphere.at("gt.ply"));
 }
 
+TEST(Synthesize, ATempleIsReplacedAndNothingElseIs) {
+  const TemporaryFolder folder;
+  const auto first = made_scene(folder.path() / "a");
+  EXPECT_NE(made_scene(folder.path() / "a", {"--seed", "2"}), first);
+  for (const char* name : {"README.txt", "gt.ply", "temple0002.png", "temple_par.txt"}) {
+    const auto other = folder.path() / (std::string("of ") + name);
+    std::filesystem::create_directories(other);
+    write_text(other / name, "mine");
+    expect_failure(quorum_program({"synthesize", other.string(), "--views", "3", "--width", "64"}), 3,
+                   {name, "was not written by quorum", "choose another folder"});
+    EXPECT_EQ(file_bytes(other / name), "mine");
+  }
+}
+
 TEST(Synthesize, FolderBelowAFileIsRefused) {
   const TemporaryFolder folder;
   write_text(folder.path() / "file", "");

@@ -13,6 +13,9 @@
 
 namespace quorum {
 
+/// Keeps the little surface that scenes of few pixels give.
+const std::vector<std::string> kKeepAll = {"--min-component", "0", "--min-confidence", "0"};
+
 /// Runs the program under test.
 inline ProgramResult quorum_program(const std::vector<std::string>& arguments, const ProgramSetting& setting = {}) {
   return Program(QUORUM_PROGRAM, arguments, setting).wait();

@@ -21,6 +21,9 @@ BenchReport make_report() {
   report.stages = {{"load_images", 0.5, 0.25}};
   report.wall_seconds = 2.0;
   report.cpu_seconds = 3.0;
+  report.host_seconds = 1.5;
+  report.megapixels = 0.5;
+  report.bytes_written = 40 << 20;
   report.peak_memory_bytes = 100 << 20;
   return report;
 }
@@ -64,6 +67,17 @@ TEST(BenchText, ComparisonTellsNewOverOld) {
   EXPECT_NE(table.find("20          10    0.500"), std::string::npos) << table;
   EXPECT_NE(table.find("100         150    1.500"), std::string::npos) << table;
   EXPECT_EQ(table.find("only new"), std::string::npos) << table;
+  EXPECT_NE(table.find("3           3    1.000"), std::string::npos) << "1.5 s outside kernels: " << table;
+}
+
+TEST(BenchReport, SecondsOutsideKernelsLeaveOutThoseOfTheHostAlone) {
+  RunReport report;
+  report.cpu_seconds = 5.0;
+  report.kernels = {{"sweep_depth", 1.0}, {"integrate", 2.0}};
+  EXPECT_EQ(seconds_outside_kernels(report, true), 2.0);
+  EXPECT_EQ(seconds_outside_kernels(report, false), 5.0);
+  report.cpu_seconds = 1.0;  // clocks of different threads
+  EXPECT_EQ(seconds_outside_kernels(report, true), 0.0);
 }
 
 TEST(BenchReport, CostsCountTheWorkOfTheRun) {
@@ -72,7 +86,7 @@ TEST(BenchReport, CostsCountTheWorkOfTheRun) {
   scene.views[0].name = "a";
   scene.views[0].width = scene.views[1].width = 10;
   scene.views[0].height = scene.views[1].height = 10;
-  ReconstructOptions options;
+  RunOptions options;
   options.sweep.window_model = WindowModel::kPlane;
   RunReport report;
   report.views = {{"a", {"b", "c"}, 50, 500, 20}};

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include "tests/engine/scene/camera_paths.h"
 #include "tests/support/sphere_scene.h"
 
 namespace quorum {
@@ -66,13 +67,36 @@ TEST(DepthPlanes, TooManyAreRefused) {
   const auto planes = make_depth_planes(sphere.scene, 0, kNeighbors, options);
   ASSERT_FALSE(planes);
   EXPECT_EQ(planes.error().kind, ErrorKind::kUsage);
-  EXPECT_NE(planes.error().message.find("--depth-step"), std::string::npos);
+  EXPECT_NE(planes.error().message.find("option depth-step"), std::string::npos);
 }
 
 TEST(DepthPlanes, BoundsBehindTheCameraAreRefused) {
   SphereScene sphere = make_sphere_scene(3, 64, 48, false, 1);
   sphere.scene.bounds = {{-1, -1, -60}, {1, 1, -50}};
   EXPECT_FALSE(make_depth_planes(sphere.scene, 0, kNeighbors, {}));
+}
+
+TEST(DepthPlanes, InARoomAroundTheCamerasBeginWhereTwoNeighborsSeeTheSame) {
+  const Scene scene = room(45);
+  const auto planes = make_depth_planes(scene, 0, {1, 44, 2, 43}, {});
+  ASSERT_TRUE(planes) << planes.error().message;
+  EXPECT_LT(planes->depth.size(), 10000U);
+  EXPECT_LT(planes->depth.front(), 1.5) << "the walls are 2.1 away";
+  EXPECT_GT(planes->depth.front(), 0.05);
+  EXPECT_GE(planes->depth.back(), 2.3F);
+}
+
+TEST(DepthPlanes, InARoomAreNeverTooMany) {
+  Scene scene = room(45);
+  for (View& view : scene.views) {  // 6400 x 4800
+    view.width *= 20;
+    view.height *= 20;
+    view.camera.intrinsics.topRows(2) *= 20;
+  }
+  const auto planes = make_depth_planes(scene, 0, {1, 44, 2, 43}, {});
+  ASSERT_TRUE(planes) << planes.error().message;
+  EXPECT_GT(planes->depth.size(), 10000U);
+  EXPECT_LT(planes->depth.front(), 1.5);
 }
 
 TEST(PlaneRanges, HoldTheSamplesInsideTheBoundsAndOneMoreAtEachEnd) {

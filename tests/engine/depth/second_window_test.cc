@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "engine/depth/sweep_depth.h"
 #include "tests/support/sphere_scene.h"
@@ -13,22 +12,6 @@ namespace {
 
 constexpr int kWidth = 110;
 constexpr int kHeight = 80;
-
-/// A sphere whose texture the noise of the photographs nearly hides.
-SphereScene weak_sphere() {
-  SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, false, 8);
-  std::mt19937 random(8);
-  std::uniform_int_distribution<int> noise(-5, 5);
-  for (ColorImage& image : sphere.images) {
-    for (Rgba& pixel : image.values) {
-      const auto weak = [&](std::uint32_t value) {
-        return static_cast<std::uint32_t>(100 + static_cast<int>(value) / 6 + noise(random));
-      };
-      pixel = make_rgb(weak(red_of(pixel)), weak(green_of(pixel)), weak(blue_of(pixel)));
-    }
-  }
-  return sphere;
-}
 
 /// A view of the sphere, its depth map, and both maps together.
 struct SecondWindow : ::testing::TestWithParam<WindowModel> {
@@ -44,7 +27,7 @@ struct SecondWindow : ::testing::TestWithParam<WindowModel> {
     take_missing(second, both);
   }
 
-  const SphereScene sphere = weak_sphere();
+  const SphereScene sphere = make_weak_sphere_scene(4, kWidth, kHeight, 8);
   SweepTask task;
   SweepTask second_task;
   DepthMap first, second, both;

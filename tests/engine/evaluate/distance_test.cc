@@ -161,6 +161,32 @@ TEST(SurfaceDistance, PlacesOneFloatApartAreToldApart) {
   expect_neighbors_told_apart(1e-6F, -1e-6F);
 }
 
+TEST(SurfaceDistance, ACornerThatIsFarOffCostsNoSearchOfEveryTriangle) {
+  // 50,000 triangles and 20,000 points: all pairs would take minutes.
+  Mesh mesh = random_triangles(50'000, 1, {0, 0, 0});
+  for (const float far : {1e4F, 1e8F, 1e20F, -1e37F}) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const Eigen::Vector3f& corner : {Eigen::Vector3f(far, 0, 0), {0, 3, 0}, {0, 3, 1}})
+      mesh.vertices.push_back({.position = corner});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<Vector3d> points;
+  for (const double reach : {1.0, 1e6, 1e20, 1e37})
+    for (int i = 0; i < 5000; ++i)
+      points.push_back(reach * Vector3d(uniform(random), uniform(random), uniform(random)));
+  const std::vector<double> distances = SurfaceDistance::build(mesh).value().to(points);
+  for (std::size_t i = 0; i < points.size(); i += 500) {
+    double reference = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b, c] : mesh.triangles)
+      reference = std::min(reference, reference_distance(points[i], {mesh.vertices[a].position.cast<double>(),
+                                                                     mesh.vertices[b].position.cast<double>(),
+                                                                     mesh.vertices[c].position.cast<double>()}));
+    EXPECT_NEAR(distances[i], reference, i < 5000 ? 1e-9 : 1e-4 * reference) << i;
+  }
+}
+
 TEST(SurfaceDistance, OnePointIsEnough) {
   const Mesh cloud = cloud_of({{1, 2, 3}});
   EXPECT_DOUBLE_EQ(SurfaceDistance::build(cloud).value()({1, 2, 8}), 5);

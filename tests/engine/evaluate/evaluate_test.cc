@@ -50,6 +50,7 @@ Mesh cloud_along_x(const std::vector<float>& positions) {
 EvaluateOptions options_in(double unit) {
   EvaluateOptions options;
   options.threshold = 0.00125 * unit;
+  options.cap = 0.025 * unit;
   options.distances = {0.00025 * unit, 0.0005 * unit, 0.00125 * unit};
   options.samples = 20000;
   return options;
@@ -101,7 +102,71 @@ TEST(Evaluate, AccuracyIsTheDistanceThatHoldsTheShare) {
   EXPECT_EQ(accuracy_at(0), 1);
   const Evaluation result = evaluate(reconstruction, cloud_along_x({0}), options).value();
   EXPECT_EQ(result.median_accuracy, 5);
-  EXPECT_EQ(result.mean_accuracy, 5.5);
+}
+
+TEST(Evaluate, TheMeanCountsDistancesUpToTheCap) {
+  const Mesh reconstruction = cloud_along_x({7, 1, 9, 3, 5, 10, 2, 8, 4, 6});
+  EvaluateOptions options;
+  options.cap = 100;
+  EXPECT_EQ(evaluate(reconstruction, cloud_along_x({0}), options).value().mean_accuracy, 5.5);
+  options.cap = 3;
+  EXPECT_EQ(evaluate(reconstruction, cloud_along_x({0}), options).value().mean_accuracy, 2.7);
+}
+
+TEST(Evaluate, PiecesAndFarVerticesAreCounted) {
+  Mesh mesh = plane(2, 2, 0.5F, 0);
+  const Mesh far = plane(1, 1, 0.1F, 0.5F);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), far.vertices.begin(), far.vertices.end());
+  for (const auto& [a, b, c] : far.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
+  const Evaluation result = evaluate(mesh, plane(1, 1, 1, 0), options_in(1)).value();
+  EXPECT_EQ(result.components, 2U);
+  EXPECT_EQ(result.vertices, 13U);
+  EXPECT_EQ(result.far_vertices, 4U);
+  EXPECT_EQ(evaluate(cloud_along_x({0, 1, 2}), cloud_along_x({0}), {}).value().components, 3U);
+}
+
+/// Views side by side that look along z at the unit square.
+Scene views_before_the_square(int count) {
+  Scene scene;
+  for (int i = 0; i < count; ++i) {
+    View& view = scene.views.emplace_back();
+    view.width = view.height = 201;
+    view.camera.intrinsics << 200, 0, 100, 0, 200, 100, 0, 0, 1;
+    view.camera.translation = {-0.5 - 0.01 * i, -0.5, 2};
+  }
+  return scene;
+}
+
+TEST(Evaluate, TheTruthThatTooFewViewsSeeDoesNotCount) {
+  Mesh truth = plane(4, 4, 0.25F, 0);
+  const Mesh hidden = plane(4, 4, 0.25F, 0.1F);
+  for (const auto& [a, b, c] : hidden.triangles) truth.triangles.push_back({a + 25, b + 25, c + 25});
+  truth.vertices.insert(truth.vertices.end(), hidden.vertices.begin(), hidden.vertices.end());
+  const Mesh front = plane(4, 4, 0.25F, 0);
+  const Scene scene = views_before_the_square(3);
+  EvaluateOptions options = options_in(1);
+  EXPECT_NEAR(evaluate(front, truth, options).value().completeness, 0.5, 1e-3);
+  const Evaluation seen = evaluate(front, truth, options, &scene).value();
+  EXPECT_GT(seen.completeness, 0.98) << "a rim of what is hidden is seen from aside";
+  EXPECT_NEAR(seen.seen_share, 0.5, 0.02);
+  options.hidden_by = 0.2;  // the front does not count as standing before what is so close
+  EXPECT_NEAR(evaluate(front, truth, options, &scene).value().completeness, 0.5, 0.03);
+  options.hidden_by = 0.0002;
+  options.seen_by = 4;
+  const auto unseen = evaluate(front, truth, options, &scene);
+  ASSERT_FALSE(unseen);
+  EXPECT_NE(unseen.error().message.find("no 4 views"), std::string::npos) << unseen.error().message;
+  options.seen_by = 0;
+  EXPECT_NEAR(evaluate(front, truth, options, &scene).value().completeness, 0.5, 1e-3);
+}
+
+TEST(Evaluate, WhatLiesBesideAnImageOrBehindACameraIsNotSeen) {
+  Scene scene = views_before_the_square(3);
+  for (View& view : scene.views) view.width = 101;  // the left half
+  EXPECT_NEAR(evaluate(plane(1, 1, 1, 0), plane(1, 1, 1, 0), options_in(1), &scene).value().seen_share, 0.5, 0.02);
+  for (View& view : scene.views) view.camera.translation.z() = -2;
+  EXPECT_FALSE(evaluate(plane(1, 1, 1, 0), plane(1, 1, 1, 0), options_in(1), &scene));
 }
 
 TEST(Evaluate, AShareOfSevenHundredthsIsSevenOfAHundred) {
@@ -192,17 +257,20 @@ TEST(EvaluateOptions, WhatIsOutOfRangeIsNamed) {
     EvaluateOptions options;
     change(options);
     const auto result = evaluate(cloud_along_x({0}), cloud_along_x({0}), options);
-    return result ? std::string("accepted") : result.error().message.substr(0, result.error().message.find(' '));
+    return result ? std::string("accepted") : result.error().message.substr(0, result.error().message.find(' ', 7));
   };
   EXPECT_EQ(message([](EvaluateOptions&) {}), "accepted");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = 1.1; }), "--share");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = -0.1; }), "--share");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = kNan; }), "--share");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.threshold = 0; }), "--threshold");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.distances = {1, kNan}; }), "--distances");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = 1.1; }), "option share");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = -0.1; }), "option share");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.share = kNan; }), "option share");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.threshold = 0; }), "option threshold");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.distances = {1, kNan}; }), "option distances");
   EXPECT_EQ(message([](EvaluateOptions& o) { o.distances = {}; }), "accepted");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.samples = 0; }), "--samples");
-  EXPECT_EQ(message([](EvaluateOptions& o) { o.samples = 100'000'001; }), "--samples");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.cap = 0; }), "option cap");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.hidden_by = kNan; }), "option hidden-by");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.seen_by = -1; }), "option seen-by");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.samples = 0; }), "option samples");
+  EXPECT_EQ(message([](EvaluateOptions& o) { o.samples = 100'000'001; }), "option samples");
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST(PaperCatalog, FiguresShowRunsOfTheirExperiment) {
 }
 
 TEST(PaperOptions, AreThoseOfTheText) {
-  const ReconstructOptions options = paper_options("templeRing");
+  const RunOptions options = paper_options("templeRing");
   EXPECT_FALSE(options.confirm);
   EXPECT_EQ(options.views.neighbor_count, 4);
   EXPECT_EQ(options.views.min_angle_deg, 4.0);

@@ -134,7 +134,11 @@ TEST(RunRecord, IsReadAsItWasWritten) {
   record.mesh.vertices = 7;
   const std::string plain = record_json(record);
   EXPECT_EQ(record_json(read_record(plain).value()), plain);
-  record.mesh.evaluation = Evaluation{0.1, 0.2, 0.3, 0.4, {{0.5, 0.6, 0.7, 0.8}}};
+  record.mesh.evaluation = Evaluation{.accuracy = 0.1,
+                                      .median_accuracy = 0.2,
+                                      .mean_accuracy = 0.3,
+                                      .completeness = 0.4,
+                                      .f_scores = {{0.5, 0.6, 0.7, 0.8}}};
   const std::string evaluated = record_json(record);
   EXPECT_NE(evaluated, plain);
   EXPECT_EQ(record_json(read_record(evaluated).value()), evaluated);

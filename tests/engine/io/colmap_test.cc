@@ -73,7 +73,7 @@ TEST_F(Colmap, PointsFallOnTheirObservationsWithEveryCameraModel) {
     write(model);
     const auto scene = read();
     ASSERT_TRUE(scene) << kind.name << ": " << scene.error().message;
-    EXPECT_EQ(scene->views[0].lens.has_value(), kind.coefficient_count > 0) << kind.name;
+    EXPECT_EQ(scene->views[0].lens.has_value(), !kind.name.ends_with("PINHOLE")) << kind.name;
     const Reprojection found = reproject(model, *scene);
     EXPECT_GT(found.count, 150U) << kind.name;
     EXPECT_LT(found.largest, 1e-6) << kind.name;
@@ -151,9 +151,31 @@ TEST_F(Colmap, ModelIsFoundWhereItUsuallyStands) {
   EXPECT_EQ(find_colmap_model(folder_.path()), path("sparse/0"));
   EXPECT_TRUE(read());
   EXPECT_TRUE(read_colmap(path("sparse/0"), {})) << "images two folders above the model";
-  fs::remove_all(path("sparse"));
-  fs::copy(path("0"), path("1"));
-  EXPECT_TRUE(find_colmap_model(folder_.path()).empty()) << "two models, none of them where COLMAP writes one";
+}
+
+TEST_F(Colmap, LargestOfSeveralModelsIsTakenAndSaid) {
+  const ColmapModel all = make_colmap_model("PINHOLE");
+  ColmapModel few = all;
+  few.images.resize(3);
+  write(all);
+  fs::create_directories(path("sparse/0"));
+  fs::create_directories(path("sparse/1"));
+  for (const char* file : {"cameras.bin", "images.bin", "points3D.bin"})
+    fs::rename(path("sparse") / file, path("sparse/1") / file);
+  write_colmap_text(path("sparse/0"), few);
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->views.size(), 4U);
+  ASSERT_EQ(scene->notes.size(), 1U);
+  EXPECT_EQ(scene->notes[0],
+            "sparse/1 is taken, the largest of 2 models, with 4 images (sparse/0 3); option model chooses another");
+  for (const char* chosen : {"sparse/0", "0"}) {
+    const auto other = read_colmap(folder_.path(), {}, chosen);
+    ASSERT_TRUE(other) << other.error().message;
+    EXPECT_EQ(other->views.size(), 3U);
+    EXPECT_TRUE(std::ranges::none_of(other->notes, [](const std::string& n) { return n.contains("option model"); }));
+  }
+  expect_bad_input(read_colmap(folder_.path(), {}, "2"), {"holds no COLMAP model", "option model"});
 }
 
 TEST_F(Colmap, RigsAndFramesOfNewerModelsChangeNothing) {
@@ -222,7 +244,11 @@ TEST_F(Colmap, UnknownCameraModelIsNamed) {
   change("sparse/cameras.bin", [](std::string& bytes) { bytes[12] = 77; });
   expect_bad_input(read(), {"cameras.bin", "camera 1", "model 77"});
   expect_bad_input(parse_colmap_cameras_txt("cameras.txt", "# c\n1 FISHY 10 10 1 2 3\n"),
-                   {"cameras.txt:2", "\"FISHY\""});
+                   {"cameras.txt:2", "\"FISHY\"", "DIVISION"});
+  expect_bad_input(parse_colmap_cameras_txt("c", "1 EQUIRECTANGULAR 10 10 10 10\n"), {"c:1", "panorama"});
+  write(make_colmap_model("PINHOLE"));
+  change("sparse/cameras.bin", [](std::string& bytes) { bytes[12] = 17; });
+  expect_bad_input(read(), {"cameras.bin", "EQUIRECTANGULAR", "cut the panoramas"});
 }
 
 TEST_F(Colmap, WrongLinesOfTextAreNamed) {
@@ -230,8 +256,15 @@ TEST_F(Colmap, WrongLinesOfTextAreNamed) {
   expect_bad_input(parse_colmap_cameras_txt("c", "1 PINHOLE 10 10 1 2 3 4 5\n"), {"c:1", "1 fields are left over"});
   expect_bad_input(parse_colmap_cameras_txt("c", "1 PINHOLE wide 10 1 2 3 4\n"), {"c:1", "WIDTH = \"wide\""});
   expect_bad_input(parse_colmap_images_txt("i", "1 1 0 0 0 0 0 0 1 a.png\n1 2\n"), {"i:2", "POINT3D_ID is missing"});
-  expect_bad_input(parse_colmap_images_txt("i", "1 1 0 0 0 0 0 0 1 a.png"), {"i:1", "line with the features"});
+  EXPECT_EQ(parse_colmap_images_txt("i", "1 1 0 0 0 0 0 0 1 a.png")->size(), 1U) << "COLMAP reads it, too";
   expect_bad_input(parse_colmap_images_txt("i", "1 1 0 0 0 0 0 0 1\n\n"), {"i:1", "NAME is missing"});
+  expect_bad_input(parse_colmap_images_txt("i", "1 1 0 0 0 0 0 0 1 a\x1b[31m.png\n\n"), {"i:1", "control characters"});
+  EXPECT_EQ(parse_colmap_cameras_txt("c",
+                                     "\xef\xbb\xbf"
+                                     "1 PINHOLE 10 10 1 2 3 4")
+                ->size(),
+            1U)
+      << "a byte order mark";
   expect_bad_input(parse_colmap_points_txt("p", "1 0 0 0 1 2 300 0\n"), {"p:1", "a color = \"300\""});
   expect_bad_input(parse_colmap_points_txt("p", "1 0 0 0 1 2 3 0 7\n"), {"p:1", "POINT2D_IDX is missing"});
   EXPECT_EQ(parse_colmap_images_txt("i", "1 1 0 0 0 0 0 0 1 my photo.png\n\n2 1 0 0 0 0 0 0 1 b\n\n")->at(0).name,
@@ -251,7 +284,12 @@ TEST_F(Colmap, ReferencesToWhatIsAbsentAreNamed) {
     const std::size_t name = bytes.find("d.png");
     bytes[name - 4 - 56 - 4] = 98;
   });
-  expect_bad_input(read(), {"points3D.bin", "refers to image 99"});
+  // Its sightings name an image that was removed.
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_EQ(scene->notes.size(), 1U);
+  EXPECT_TRUE(scene->notes[0].starts_with(std::to_string(good.images[3].observations.size()) + " sightings"))
+      << scene->notes[0];
   model = good;
   model.cameras[1].id = 1;
   write(model);
@@ -270,11 +308,73 @@ TEST_F(Colmap, PhotographsMustBeThereAndHaveTheirCamerasSize) {
   write(make_colmap_model("SIMPLE_RADIAL"));
   write_png(path("images/b.png"), ColorImage(64, 48)).value();
   expect_bad_input(read(), {"image \"b.png\"", "is 64 x 48, its camera 65 x 48"});
-  fs::remove(path("images/c.png"));
-  write_png(path("images/b.png"), ColorImage(65, 48)).value();
-  expect_bad_input(read(), {"image \"c.png\"", "is not there"});
+  write_png(path("images/b.png"), ColorImage(48, 65)).value();
+  expect_bad_input(read(), {"image \"b.png\"", "is 48 x 65, its camera 65 x 48"});
   fs::remove_all(path("images"));
-  expect_bad_input(read(), {"image \"a.png\" of the model is not there", "--images"});
+  expect_bad_input(read(), {"image \"a.png\" of the model is not there", "option images"});
+}
+
+TEST_F(Colmap, AbsentPhotographsAreLeftOutAndCounted) {
+  write(make_colmap_model("SIMPLE_RADIAL"));
+  const Scene whole = read().value();
+  fs::remove(path("images/a.png"));
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_EQ(scene->views.size(), 3U);
+  EXPECT_EQ(scene->views[0].name, "b");
+  ASSERT_EQ(scene->notes.size(), 1U);
+  EXPECT_EQ(scene->notes[0], "1 of 4 photographs is not there and left out: a.png");
+  for (const SparsePoint& point : scene->points) {
+    EXPECT_FALSE(point.views.empty());
+    for (const int view : point.views) {
+      const auto other = std::ranges::find(whole.points, point.position, &SparsePoint::position);
+      EXPECT_TRUE(std::ranges::binary_search(other->views, view + 1));
+    }
+  }
+  fs::remove(path("images/c.png"));
+  expect_bad_input(read(), {"2 of 4 photographs are there", "a.png", "option images"});
+}
+
+TEST_F(Colmap, PhotographsOfAnotherSizeScaleTheirCameras) {
+  const ColmapModel model = make_colmap_model("OPENCV");
+  write(model);
+  const Scene whole = read().value();
+  fs::create_directories(path("images_2"));
+  for (std::size_t i = 0; i < 4; ++i)
+    write_png(path("images_2") / model.images[i].name, ColorImage(2 * model.cameras[i].width, 96)).value();
+  const auto scene = read_colmap(folder_.path(), path("images_2"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_FALSE(scene->notes.empty());
+  EXPECT_TRUE(scene->notes.back().ends_with("scaled by 2")) << scene->notes.back();
+  const Lens& small = *whole.views[1].lens;
+  const Lens& large = *scene->views[1].lens;
+  for (const Eigen::Vector2d& ray : {Eigen::Vector2d(0, 0), Eigen::Vector2d(0.3, -0.2)}) {
+    const Eigen::Vector2d expected = (2 * (small.project(ray).array() + 0.5) - 0.5).matrix();
+    EXPECT_LT((large.project(ray) - expected).norm(), 1e-9);
+  }
+  EXPECT_EQ(scene->views[1].photo_width, 130);
+  fs::remove_all(path("images"));
+  EXPECT_EQ(read().value().notes.size(), 2U) << "found without being named, and said";
+  write_png(path("images_2/b.png"), ColorImage(96, 130)).value();
+  expect_bad_input(read(), {"b.png", "is 96 x 130, its camera 65 x 48"});
+}
+
+TEST_F(Colmap, NamesFromOtherMachinesAreFound) {
+  ColmapModel model = make_colmap_model("PINHOLE");
+  write(model);
+  model.images[0].name = "/elsewhere/images/a.png";
+  model.images[1].name = "D:\\photos\\images\\b.PNG";
+  model.images[2].name = "c";
+  ASSERT_TRUE(write_colmap_model(path("sparse"), model));
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_EQ(scene->views.size(), 4U) << scene->notes.at(0);
+  std::vector<std::string> names;
+  for (const View& view : scene->views) names.push_back(view.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"a", "b", "c", "d"}));
+  model.images[2].name = "\\elsewhere\\a.png";
+  ASSERT_TRUE(write_colmap_model(path("sparse"), model));
+  expect_bad_input(read(), {"images/a.png", "photograph of another image, too"});
 }
 
 TEST_F(Colmap, ImagesMayStandElsewhere) {

@@ -131,6 +131,31 @@ TEST(File, TemporaryFilesOfOthersAreLeftAlone) {
   for (int i = 0; i < 200; ++i) ASSERT_EQ(read_file(name(i)).value(), "other") << i;
 }
 
+TEST(FileGroup, FilesAppearTogetherAtTheEnd) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "b", "old").value();
+  FileGroup group;
+  group.add(folder.path() / "a", "one").value();
+  group.add(folder.path() / "b", "two").value();
+  EXPECT_FALSE(fs::exists(folder.path() / "a"));
+  EXPECT_EQ(read_file(folder.path() / "b").value(), "old");
+  group.finish().value();
+  EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"a", "b"}));
+  EXPECT_EQ(read_file(folder.path() / "b").value(), "two");
+  FileGroup().finish().value();
+}
+
+TEST(FileGroup, FailureLeavesNothing) {
+  const TemporaryFolder folder;
+  {
+    FileGroup group;
+    group.add(folder.path() / "a", "one").value();
+    const FileSizeLimit limit(10);
+    expect_bad_input(group.add(folder.path() / "b", std::string(100, 'x')), {"b", "cannot write"});
+  }
+  EXPECT_TRUE(names_in(folder.path()).empty());
+}
+
 TEST(MakeFolder, MakesParentsAndKeepsWhatIsThere) {
   const TemporaryFolder folder;
   const fs::path deep = folder.path() / "a" / "b" / "c";

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <random>
 
 #include "engine/io/file.h"
+#include "engine/io/image_size.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/test_support.h"
 
@@ -65,6 +68,61 @@ TEST_F(ImageFile, RedIsInTheLowestByte) {
 TEST_F(ImageFile, GrayBecomesColorAndSixteenBitsAreScaled) {
   EXPECT_EQ(read_image(write("a.pgm", "P5 1 1 255\n\x50")).value().at(0, 0), make_rgb(80, 80, 80));
   EXPECT_EQ(read_image(write("b.pgm", "P5 1 1 65535\n\x50\xff")).value().at(0, 0), make_rgb(80, 80, 80));
+}
+
+/// A gray file of 16 bits with these values in a row.
+std::string deep_gray(const std::vector<int>& values) {
+  std::string bytes = "P5 " + std::to_string(values.size()) + " 1 65535\n";
+  for (const int value : values) {
+    bytes += static_cast<char>(value >> 8);
+    bytes += static_cast<char>(value);
+  }
+  return bytes;
+}
+
+TEST_F(ImageFile, TenAndTwelveBitsInSixteenAreTakenByTheirRange) {
+  const auto levels = [this](const std::vector<int>& values) {
+    const ColorImage image = read_image(write("a.pgm", deep_gray(values))).value();
+    std::vector<int> found;
+    for (const Rgba pixel : image.values) found.push_back(static_cast<int>(red_of(pixel)));
+    return found;
+  };
+  EXPECT_EQ(levels({0, 4, 513, 1023}), (std::vector<int>{0, 1, 128, 255}));
+  EXPECT_EQ(levels({0, 16, 2048, 4095}), (std::vector<int>{0, 1, 128, 255}));
+  EXPECT_EQ(levels({0, 64, 8192, 16383}), (std::vector<int>{0, 1, 128, 255}));
+  EXPECT_EQ(levels({0, 256, 32768, 65535}), (std::vector<int>{0, 1, 128, 255}));
+  EXPECT_EQ(levels({0, 1, 128, 255}), (std::vector<int>{0, 1, 128, 255})) << "8 bits";
+  EXPECT_EQ(levels({30000, 30400, 31000}), (std::vector<int>{0, 102, 255})) << "a narrow range far from 0";
+  EXPECT_EQ(levels({7, 7}), (std::vector<int>{7, 7}));
+  const auto said = [this](const std::vector<int>& values) {
+    return describe_pixel_range(write("a.pgm", deep_gray(values))).value();
+  };
+  EXPECT_EQ(said({0, 1000}),
+            "a.pgm holds values from 0 to 1000: photographs are taken by their own range, this one as of 10 bits");
+  EXPECT_EQ(said({30000, 31000}),
+            "a.pgm holds values from 30000 to 31000: each photograph is taken by the range of its values");
+  EXPECT_EQ(said({0, 60000}), "");
+}
+
+TEST_F(MaskFile, AlphaIsTheMaskOfAPhotograph) {
+  // 2 x 1, RGBA of 8 bits: opaque red, transparent white.
+  const std::string pixels("\0\xff\0\0\xff\xff\xff\xff\0", 9);
+  std::uint32_t a = 1, b = 0;
+  for (const unsigned char byte : pixels) b = (b + (a = (a + byte) % 65521)) % 65521;
+  const std::uint32_t sum = b << 16 | a;
+  std::string stored("\x78\x01\x01\x09\0\xf6\xff", 7);
+  stored += pixels;
+  for (int shift = 24; shift >= 0; shift -= 8) stored += static_cast<char>(sum >> shift);
+  const std::string header("IHDR\0\0\0\x02\0\0\0\x01\x08\x06\0\0\0", 17);
+  const auto path =
+      write("a.png", "\x89PNG\r\n\x1a\n" + png_chunk(header) + png_chunk("IDAT" + stored) + png_chunk("IEND"));
+  const auto mask = read_alpha(path);
+  ASSERT_TRUE(mask) << mask.error().message;
+  EXPECT_EQ(mask->values, (std::vector<std::uint8_t>{1, 0}));
+  EXPECT_TRUE(read_image_header(path)->has_alpha);
+  ASSERT_TRUE(write_png(path, random_image(2, 1)));
+  EXPECT_EQ(read_alpha(path)->values, (std::vector<std::uint8_t>{1, 1})) << "without one";
+  EXPECT_FALSE(read_image_header(path)->has_alpha);
 }
 
 TEST_F(ImageFile, OrientationInTheFileIsIgnored) {
@@ -171,6 +229,49 @@ TEST(MaskDarkBackground, AllDarkAllBrightAndEmpty) {
 TEST(MaskDarkBackground, LevelItselfIsBackground) {
   EXPECT_EQ(mask_dark_background(ColorImage(1, 1, make_rgb(51, 0, 0)), 0.2), Mask(1, 1, 0));
   EXPECT_EQ(mask_dark_background(ColorImage(1, 1, make_rgb(52, 0, 0)), 0.2), Mask(1, 1, 1));
+}
+
+/// A TIFF file of one channel of floats, a ramp from -10 to 30 along the rows, as thermal cameras write temperatures.
+std::string float_tiff(int width, int height) {
+  const auto little = [](std::uint32_t value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xffU);
+    return text;
+  };
+  constexpr std::uint32_t kShort = 3;
+  constexpr std::uint32_t kLong = 4;
+  const auto pixel_bytes = static_cast<std::uint32_t>(4 * width * height);
+  const std::array<std::array<std::uint32_t, 3>, 10> entries = {
+      {{256, kLong, static_cast<std::uint32_t>(width)},   // width
+       {257, kLong, static_cast<std::uint32_t>(height)},  // height
+       {258, kShort, 32},                                 // bits
+       {259, kShort, 1},                                  // no compression
+       {262, kShort, 1},                                  // black is zero
+       {273, kLong, 8},                                   // where the pixels begin
+       {277, kShort, 1},                                  // samples a pixel
+       {278, kLong, static_cast<std::uint32_t>(height)},  // rows of the strip
+       {279, kLong, pixel_bytes},                         // bytes of the strip
+       {339, kShort, 3}}};                                // floating point
+  std::string file = std::string("II*\0", 4) + little(8 + pixel_bytes, 4);
+  for (int i = 0; i < width * height; ++i) {
+    const float value = -10.0F + 40.0F * static_cast<float>(i % width) / static_cast<float>(width - 1);
+    file += little(std::bit_cast<std::uint32_t>(value), 4);
+  }
+  file += little(entries.size(), 2);
+  for (const auto& [tag, type, value] : entries)
+    file += little(tag, 2) + little(type, 2) + little(1, 4) + little(value, 4);
+  return file + little(0, 4);
+}
+
+TEST_F(ImageFile, FloatsAreTakenByTheirRange) {
+  const auto path = write("a.tif", float_tiff(41, 3));
+  EXPECT_EQ(read_image_header(path)->bits, 32);
+  const auto image = read_image(path);
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(image->at(0, 1), make_rgb(0, 0, 0));
+  EXPECT_EQ(image->at(20, 1), make_rgb(128, 128, 128));
+  EXPECT_EQ(image->at(40, 2), make_rgb(255, 255, 255));
+  EXPECT_NE(describe_pixel_range(path)->find("from -10 to 30"), std::string::npos);
 }
 
 }  // namespace

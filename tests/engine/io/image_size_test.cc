@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "engine/io/image_file.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/test_support.h"
@@ -30,8 +33,52 @@ TEST_F(ImageSizeTest, HeadersTellIt) {
   EXPECT_EQ(read_image_size(path_).value(), (ImageSize{3, 1027}));
 }
 
-TEST_F(ImageSizeTest, OtherKindsAreDecoded) {
-  EXPECT_EQ(read("P2 3 2 255\n1 2 3\n4 5 6\n").value(), (ImageSize{3, 2}));
+TEST_F(ImageSizeTest, HugePicturesOfManyKindsAreNotDecoded) {
+  constexpr ImageSize kHuge{20000, 30000};
+  const auto number = [](std::uint32_t value, int bytes, bool little) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> 8 * (little ? i : bytes - 1 - i));
+    return text;
+  };
+  // One by one: a chain of + over temporaries lets GCC 12 warn of bounds that are kept.
+  const auto joined = [](const std::vector<std::string>& parts) {
+    std::string text;
+    for (const std::string& part : parts) text += part;
+    return text;
+  };
+  EXPECT_EQ(read("P6\n# a comment\n20000 30000 65535\n").value(), kHuge);
+  EXPECT_EQ(read_image_header(path_)->bits, 16);
+  EXPECT_EQ(read(joined({"BM", std::string(16, '\0'), number(20000, 4, true),
+                         number(static_cast<std::uint32_t>(-30000), 4, true), std::string(30, '\0')}))
+                .value(),
+            kHuge);
+  for (const bool little : {true, false}) {
+    const auto entry = [&](std::uint32_t tag, std::uint32_t value) {
+      return joined({number(tag, 2, little), number(4, 2, little), number(1, 4, little), number(value, 4, little)});
+    };
+    const std::string tiff = joined({little ? "II" : "MM", number(42, 2, little), number(8, 4, little),
+                                     number(3, 2, little), entry(256, 20000), entry(257, 30000), entry(258, 16)});
+    EXPECT_EQ(read(tiff).value(), kHuge) << little;
+    EXPECT_EQ(read_image_header(path_)->bits, 16);
+  }
+  const std::string webp = joined({"RIFF    WEBPVP8X", number(10, 4, true), std::string("\x10\0\0\0", 4),
+                                   number(16000 - 1, 3, true), number(12000 - 1, 3, true)});
+  EXPECT_EQ(read(webp).value(), (ImageSize{16000, 12000}));
+  EXPECT_TRUE(read_image_header(path_)->has_alpha);
+  EXPECT_EQ(decoded_bytes({{1000, 1000}, 8, false}), 8'000'000U);
+  EXPECT_EQ(decoded_bytes({{1000, 1000}, 16, false}), 12'000'000U);
+}
+
+TEST(CommonFactor, IsThatOfOnePictureAtTwoSizes) {
+  EXPECT_EQ(common_factor({640, 480}, {640, 480}), 1.0);
+  EXPECT_EQ(common_factor({640, 480}, {320, 240}), 0.5);
+  EXPECT_NEAR(common_factor({1297, 840}, {649, 420}).value(), 0.5, 1e-3);
+  EXPECT_NEAR(common_factor({648, 420}, {1297, 840}).value(), 2.0, 1e-2);
+  EXPECT_NEAR(common_factor({6000, 4000}, {1600, 1067}).value(), 1600 / 6000.0, 1e-3);
+  EXPECT_FALSE(common_factor({640, 480}, {480, 640})) << "turned";
+  EXPECT_FALSE(common_factor({640, 480}, {640, 400})) << "cropped";
+  EXPECT_FALSE(common_factor({640, 480}, {636, 477})) << "cropped by little";
+  EXPECT_FALSE(common_factor({0, 480}, {640, 480}));
 }
 
 TEST_F(ImageSizeTest, WhatTellsNoneIsRefused) {

@@ -124,6 +124,13 @@ TEST_F(ImageStoreTest, MaskFileAndBackgroundMustBothAgree) {
   EXPECT_EQ((*background_only.mask(0))->at(23, 10), 0);
 }
 
+TEST_F(ImageStoreTest, AHugeMaskIsRefusedBeforeItIsDecoded) {
+  set_mask(0, 8 * kWidth, 8 * kHeight, "0", "1");
+  EXPECT_TRUE(ImageStore(scene_, 1 << 20).mask(0)) << "of images_8";
+  set_mask(0, 20 * kWidth, 20 * kHeight, "0", "1");
+  expect_bad_input(ImageStore(scene_, 1 << 20).mask(0), {"expected", "for its camera"});
+}
+
 TEST_F(ImageStoreTest, MaskIsKeptLikeAnImage) {
   set_mask(0, kWidth, kHeight, "0", "1");
   ImageStore store(scene_, 1 << 20);

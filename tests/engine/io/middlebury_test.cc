@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 const std::string kCamera = " 100 0 20 0 100 15 0 0 1 1 0 0 0 1 0 0 0 1 0.1 -0.2 5";
 const std::string kViews = "a.png" + kCamera + "\nb.png" + kCamera + "\nc.png" + kCamera + "\n";
 const std::string kReadme = "the tiny set\nThe (tight) bounding box is\n(-1 -2 -0.5)\n(1 2 0.5)\n";
-const std::string kRemedy = "--bounds \"x0 y0 z0 x1 y1 z1\"";
+const std::string kRemedy = "option bounds \"x0 y0 z0 x1 y1 z1\"";
 
 /// A folder with three images of 40 x 30 pixels, par file and README.
 class MiddleburyTest : public testing::Test {
@@ -122,6 +122,15 @@ TEST_F(Middlebury, MalformedViewIsNamedWithFileAndLine) {
   expect_bad_input(read_par("a.png x 0 20 0 100 15 0 0 1 1 0 0 0 1 0 0 0 1 0 0 5\n"), {"tiny_par.txt:1: k11"});
 }
 
+TEST_F(Middlebury, EachViewHasTheSizeOfItsImage) {
+  ASSERT_TRUE(write_png(path("b.png"), ColorImage(50, 20, make_rgb(1, 2, 3))));
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(std::pair(scene->views[0].width, scene->views[0].height), std::pair(40, 30));
+  EXPECT_EQ(std::pair(scene->views[1].width, scene->views[1].height), std::pair(50, 20));
+  EXPECT_EQ(std::pair(scene->views[2].width, scene->views[2].height), std::pair(40, 30));
+}
+
 TEST_F(Middlebury, CountMustBeThatOfTheLines) {
   expect_bad_input(read_par("4\n" + kViews), {"tiny_par.txt:1: says 4 views, but 3 follow"});
   expect_bad_input(read_par("2\n" + kViews), {"tiny_par.txt:1: says 2 views, but 3 follow"});
@@ -137,9 +146,14 @@ TEST_F(Middlebury, FewerThanThreeViewsAreRefused) {
 
 TEST_F(Middlebury, ImageThatIsTwiceOrAbsentIsNamed) {
   expect_bad_input(read_par(kViews + "b.png" + kCamera), {"tiny_par.txt:4: the name of image \"b.png\"", "line 2"});
-  expect_bad_input(read_par(kViews + "b.jpg" + kCamera), {"tiny_par.txt:4: the name of image \"b.jpg\"", "line 2"});
-  expect_bad_input(read_par(kViews + "d.png" + kCamera),
-                   {"tiny_par.txt:4: image \"d.png\" is not in", folder_.path().string()});
+  const auto partial = read_par("my d.png" + kCamera + "\n" + kViews);
+  ASSERT_TRUE(partial) << partial.error().message;
+  EXPECT_EQ(partial->views.size(), 3U);
+  EXPECT_EQ(partial->notes.at(0), "1 of 4 photographs is not there and left out: my d.png");
+  expect_bad_input(read_par(kViews + "x\x1b[1m" + kCamera), {"tiny_par.txt:4", "control characters"});
+  fs::rename(path("c.png"), path("d.png"));
+  expect_bad_input(read_par(kViews), {"tiny_par.txt:3: image \"c.png\" is not in", folder_.path().string(), "2 of 3"});
+  fs::rename(path("d.png"), path("c.png"));
   write_text(path("a.png"), "no image");
   expect_bad_input(read_par(kViews), {"a.png: is damaged"});
 }
@@ -167,8 +181,11 @@ TEST_F(Middlebury, BoundsThatAreMissingOrMalformedAreNamedWithTheRemedy) {
   expect_bad_input(read_readme("bounding box\n(-1 -1 -1)\n"), {"README.txt: no \"bounding box\"", kRemedy});
   expect_bad_input(read_readme("bounding box\n(-1 -1 -1)\n(1 x 1)\n"), {"README.txt:3:", "\"(1 x 1)\"", kRemedy});
   expect_bad_input(read_readme("bounding box\n(-1 -1)\n(1 1 1)\n"), {"README.txt:2:", kRemedy});
+}
+
+TEST_F(Middlebury, WithoutReadmeTheBoundsAreFound) {
   fs::remove(path("README.txt"));
-  expect_bad_input(read(), {"README.txt: no file with bounds", kRemedy});
+  expect_bad_input(read(), {"show no depth", kRemedy});
 }
 
 TEST_F(Middlebury, GivenBoundsNeedNoReadme) {
@@ -210,6 +227,16 @@ TEST_F(Middlebury, MasksAreFoundUnderBothNames) {
   fs::remove(masks / "b.png");
   expect_bad_input(read_middlebury(folder_.path(), {}, masks), {"masks: no mask b.png.png or b.png for view b"});
   expect_bad_input(read_middlebury(folder_.path(), {}, path("none")), {"none: no such folder of masks"});
+}
+
+TEST_F(Middlebury, PhotographsMayStandInAnotherFolder) {
+  fs::create_directories(path("half"));
+  for (const char* name : {"a.png", "b.png", "c.png"})
+    ASSERT_TRUE(write_png(path("half") / name, ColorImage(20, 15, make_rgb(1, 2, 3))));
+  const auto scene = read_middlebury(folder_.path(), {}, {}, path("half"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->views[1].image_path, path("half/b.png"));
+  expect_bad_input(read_middlebury(folder_.path(), {}, {}, path("none")), {"image \"a.png\" is not in", "none"});
 }
 
 TEST_F(Middlebury, ReadsBackTheDoublesThatWereWritten) {
@@ -269,7 +296,7 @@ TEST_F(Middlebury, AnyDamageToTheReadmeEndsInBoundsOrAnError) {
     if (scene) {
       EXPECT_TRUE(scene->bounds.valid()) << "seed " << seed;
     } else {
-      EXPECT_NE(scene.error().message.find("--bounds"), std::string::npos) << scene.error().message;
+      EXPECT_NE(scene.error().message.find("option bounds"), std::string::npos) << scene.error().message;
     }
   }
 }

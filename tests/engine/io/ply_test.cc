@@ -291,5 +291,46 @@ TEST_F(Ply, ReadsTheGroundTruthOfTheRenderedScenes) {
   }
 }
 
+TEST_F(Ply, AMeshFarFromTheOriginKeepsItsMicrometers) {
+  Mesh mesh = tetrahedron();
+  for (Vertex& vertex : mesh.vertices) vertex.position += Eigen::Vector3f(0.000001F, 0, 0);
+  mesh.offset = {500000.0, 4600000.0, -150.5};
+  for (const PlyFrame frame : {PlyFrame::kWorld, PlyFrame::kLocal}) {
+    ASSERT_TRUE(write_ply(path_, mesh, frame));
+    const std::string text = read_file(path_).value();
+    EXPECT_EQ(text.find("double") != std::string::npos, frame == PlyFrame::kWorld);
+    EXPECT_EQ(text.find("comment offset 500000 4600000 -150.5") != std::string::npos, frame == PlyFrame::kLocal);
+    const Mesh given = read_ply(path_, mesh.offset).value();
+    EXPECT_EQ(given.offset, mesh.offset);
+    const Mesh found = read_ply(path_).value();
+    EXPECT_LT((found.offset - mesh.offset).norm(), 1.0);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_LT((given.vertices[i].position - mesh.vertices[i].position).norm(), 1e-8F);
+      EXPECT_LT((found.offset + found.vertices[i].position.cast<double>() - mesh.offset -
+                 mesh.vertices[i].position.cast<double>())
+                    .norm(),
+                1e-7);
+    }
+    EXPECT_EQ(given.triangles, mesh.triangles);
+    EXPECT_EQ(given.vertices[2].color, mesh.vertices[2].color);
+  }
+}
+
+TEST_F(Ply, ACommentThatIsNoOffsetIsText) {
+  for (const char* comment :
+       {"offset", "offset 1 2", "offset 1 2 x", "offset 1 2 nan", "offset 1 2 3 4", "my offset 1 2"})
+    EXPECT_EQ(read_text(std::string("ply\nformat ascii 1.0\ncomment ") + comment + "\n" + kSquareHeader +
+                        "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")
+                  .value()
+                  .offset,
+              Eigen::Vector3d::Zero())
+        << comment;
+  EXPECT_EQ(read_text(std::string("ply\nformat ascii 1.0\ncomment offset 1 2 3\n") + kSquareHeader +
+                      "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")
+                .value()
+                .offset,
+            Eigen::Vector3d(1, 2, 3));
+}
+
 }  // namespace
 }  // namespace quorum

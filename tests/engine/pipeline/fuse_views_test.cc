@@ -54,7 +54,7 @@ TEST(FuseViews, ABudgetThatHoldsNoSlabIsRefusedWithTheLeastThatWouldDo) {
   const auto refused = scene.fuse(cpu, report, 1 << 20);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::kMemory);
-  EXPECT_NE(refused.error().message.find("give --memory "), std::string::npos) << refused.error().message;
+  EXPECT_NE(refused.error().message.find("give option memory "), std::string::npos) << refused.error().message;
 }
 
 /// All but the normal, which depends on the triangles around.

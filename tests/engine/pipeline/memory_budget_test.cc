@@ -45,10 +45,22 @@ TEST(MemoryBudget, RefusalNamesABudgetThatWouldDo) {
   EXPECT_EQ(refused.error().kind, ErrorKind::kMemory);
   const std::string& message = refused.error().message;
   EXPECT_TRUE(message.starts_with("a stage needs ")) << message;
-  const std::size_t begin = message.find("--memory ") + 9;
+  const std::size_t begin = message.find("option memory ") + 14;
   std::uint64_t least = 0;
   std::from_chars(message.data() + begin, message.data() + message.size(), least);
   EXPECT_TRUE(MemoryBudget(least * kMebibyte).require(50 * kMebibyte, "a stage")) << message;
+}
+
+TEST(MemoryBudget, RefusalNamesWhatTheRestOfTheRunNeedsToo) {
+  MemoryBudget small(kMebibyte);
+  small.foresee(4096 * kMebibyte);
+  const auto refused = small.require(50 * kMebibyte, "a stage");
+  ASSERT_FALSE(refused);
+  const std::string& message = refused.error().message;
+  const std::size_t begin = message.find("option memory ") + 14;
+  std::uint64_t least = 0;
+  std::from_chars(message.data() + begin, message.data() + message.size(), least);
+  EXPECT_GE(least, 4096U) << message;
 }
 
 }  // namespace

@@ -22,8 +22,10 @@
 namespace quorum {
 namespace {
 
-/// A sphere before a few cameras, as a COLMAP scene on disk, with points on its surface. scale: of all lengths.
-void write_sphere(const std::filesystem::path& folder, double scale) {
+/// A sphere before a few cameras, as a COLMAP scene on disk, with points on its surface. scale: of all lengths; center:
+/// of the sphere.
+void write_sphere(const std::filesystem::path& folder, double scale,
+                  const Eigen::Vector3d& center = Eigen::Vector3d::Zero()) {
   const SphereScene sphere = make_sphere_scene(5, 96, 72, false, 4);
   std::filesystem::create_directories(folder / "images");
   std::filesystem::create_directories(folder / "sparse");
@@ -36,13 +38,18 @@ void write_sphere(const std::filesystem::path& folder, double scale) {
     ASSERT_TRUE(write_png(folder / "images" / name, sphere.images[i]));
     model.cameras.push_back({id, &colmap_camera_models()[1], 96, 72, {k(0, 0), k(1, 1), k(0, 2) + 0.5, k(1, 2) + 0.5}});
     const Eigen::Quaterniond q(view.camera.camera_from_world);
-    model.images.push_back({id, {q.w(), q.x(), q.y(), q.z()}, scale * view.camera.translation, id, name, {}});
+    model.images.push_back({id,
+                            {q.w(), q.x(), q.y(), q.z()},
+                            scale * view.camera.translation - q.toRotationMatrix() * center,
+                            id,
+                            name,
+                            {}});
   }
   for (std::uint64_t id = 1; id <= 400; ++id) {
     const double z = 1.0 - 2.0 * static_cast<double>(id) / 401.0;
     const double turn = 2.4 * static_cast<double>(id);
     const Eigen::Vector3d point(std::cos(turn) * std::sqrt(1 - z * z), z, std::sin(turn) * std::sqrt(1 - z * z));
-    ColmapPoint entry{id, scale * point, {1, 2, 3}, {}};
+    ColmapPoint entry{id, scale * point + center, {1, 2, 3}, {}};
     for (std::size_t i = 0; i < sphere.images.size(); ++i) {
       const Camera& camera = sphere.scene.views[i].camera;
       if ((camera.center() - point).dot(point) < 0.3) continue;  // seen from behind, or aslant
@@ -61,19 +68,22 @@ void write_sphere(const std::filesystem::path& folder, double scale) {
 struct Result {
   TemporaryFolder folder;
   Scene scene;
-  ReconstructOptions options;
+  RunOptions options;
   Workspace workspace = Workspace::open(folder.path() / "result").value();
   Mesh mesh;
+  Progress progress;
 
-  explicit Result(double scale, WindowModel model = WindowModel::kSlanted) {
+  Run open(Backend& backend) { return {scene, options, backend, workspace, progress}; }
+
+  explicit Result(double scale, WindowModel model = WindowModel::kSlanted,
+                  const Eigen::Vector3d& center = Eigen::Vector3d::Zero(), const RunOptions& given = {})
+      : options(given) {
     options.sweep.window_model = model;
-    write_sphere(folder.path() / "scene", scale);
-    scene = read_scene(folder.path() / "scene", {}).value();
+    write_sphere(folder.path() / "scene", scale, center);
+    scene = read_scene(folder.path() / "scene", options.files).value();
     CpuBackend cpu({SimdLevel::kBaseline, 64, 16});
-    Progress progress;
-    RunReport report;
-    compute_depth_maps(scene, options, cpu, workspace, progress, report).value();
-    fuse_depth_maps(scene, options, cpu, workspace, progress, report).value();
+    Run run = open(cpu);
+    reconstruct(run).value();
     mesh = read_ply(workspace.mesh_path()).value();
   }
 };
@@ -108,10 +118,67 @@ TEST(PointScene, MeshIsTheSameAtAnyScale) {
   }
 }
 
+const Eigen::Vector3d kUtm(500000.0, 4600000.0, 150.0);
+const Eigen::Vector3d kEarthCentered(-2430000.5, -4702345.25, 3546587.125);
+
+/// How far apart the vertices of two meshes are, in the coordinates of the files; infinite if they are not as many.
+double largest_distance(const Mesh& one, const Mesh& two, const Eigen::Vector3d& two_from_one) {
+  double largest = one.vertices.size() == two.vertices.size() ? 0.0 : INFINITY;
+  for (std::size_t i = 0; i < one.vertices.size() && std::isfinite(largest); ++i)
+    largest = std::max(largest, (two.offset - two_from_one + two.vertices[i].position.cast<double>() -
+                                 (one.offset + one.vertices[i].position.cast<double>()))
+                                    .norm());
+  return largest;
+}
+
+TEST(PointScene, MovedFarFromTheOriginItGivesTheSameMeshAndCloud) {
+  RunOptions options;
+  options.cloud = true;
+  const Result one(1.0, WindowModel::kSlanted, Eigen::Vector3d::Zero(), options);
+  ASSERT_GT(one.mesh.triangles.size(), 1000U);
+  EXPECT_EQ(one.mesh.offset, Eigen::Vector3d::Zero());
+  EXPECT_EQ(read_file(one.workspace.mesh_path()).value().find("double"), std::string::npos);
+  const Mesh cloud = read_ply(one.workspace.cloud_path()).value();
+  constexpr double kHundredthOfVoxel = 0.0002;  // a pixel covers about 0.02
+  for (const Eigen::Vector3d& center : {kUtm, kEarthCentered}) {
+    const Result moved(1.0, WindowModel::kSlanted, center, options);
+    EXPECT_LT((moved.scene.offset - center).norm(), 10.0);
+    EXPECT_LT(largest_distance(one.mesh, moved.mesh, center), kHundredthOfVoxel);
+    EXPECT_LT(largest_distance(cloud, read_ply(moved.workspace.cloud_path()).value(), center), kHundredthOfVoxel);
+    const std::string header = read_file(moved.workspace.mesh_path()).value().substr(0, 200);
+    EXPECT_NE(header.find("property double x"), std::string::npos) << header;
+  }
+}
+
+TEST(PointScene, BoundsAndLocalResultsOfAFarSceneFollowItsOffset) {
+  RunOptions options;
+  options.files.bounds = Bounds{kUtm.array() - 1.05, kUtm.array() + 1.05};
+  options.frame = PlyFrame::kLocal;
+  options.colmap = true;
+  const Result far(1.0, WindowModel::kSlanted, kUtm, options);
+  EXPECT_LT((far.scene.bounds.center() + far.scene.offset - kUtm).norm(), 1e-6);
+  EXPECT_NEAR(far.scene.bounds.size().x(), 2.1, 1e-6);
+  const std::string header = read_file(far.workspace.mesh_path()).value().substr(0, 200);
+  EXPECT_NE(header.find("comment offset 5"), std::string::npos) << header;
+  EXPECT_EQ(header.find("double"), std::string::npos) << header;
+  for (const Vertex& vertex : far.mesh.vertices)
+    ASSERT_LT((vertex.position.cast<double>() + far.mesh.offset - kUtm).norm(), 2.0);
+  // With the frame of the files, the workspace for COLMAP is where the scene was.
+  const Scene local = read_scene(far.workspace.colmap_path(), {}).value();
+  EXPECT_EQ(local.offset, Eigen::Vector3d::Zero());
+  options.frame = PlyFrame::kWorld;
+  const Result world(1.0, WindowModel::kSlanted, kUtm, options);
+  const Scene back = read_scene(world.workspace.colmap_path(), {}).value();
+  EXPECT_EQ(back.offset, world.scene.offset);
+  for (std::size_t i = 0; i < back.views.size(); ++i)
+    EXPECT_LT((back.views[i].camera.center() - world.scene.views[i].camera.center()).norm(), 1e-7) << i;
+}
+
 TEST(PointScene, CloudLiesOnTheSurfaceWithItsNormals) {
-  const Result run(1.0);
-  Progress progress;
-  const Mesh cloud = fuse_points(run.scene, run.options, run.workspace, progress).value();
+  Result result(1.0);
+  CpuBackend cpu;
+  auto run = result.open(cpu);
+  const Mesh cloud = fuse_points(run).value();
   ASSERT_GT(cloud.vertices.size(), 500U);
   std::size_t near = 0;
   std::size_t right = 0;
@@ -121,15 +188,20 @@ TEST(PointScene, CloudLiesOnTheSurfaceWithItsNormals) {
     right += vertex.normal.dot(vertex.position) / radius > 0.9F ? 1 : 0;
     EXPECT_GT(vertex.confidence, 0.0F);
   }
+  result.options.cloud_views = 4;
+  const std::size_t agreed = fuse_points(run).value().vertices.size();
+  EXPECT_LT(agreed, cloud.vertices.size() * 9 / 10);
+  EXPECT_GT(agreed, 100U);
   EXPECT_GT(near, cloud.vertices.size() * 9 / 10);
   EXPECT_GT(right, cloud.vertices.size() * 9 / 10);
 }
 
 TEST(PointScene, ColmapWorkspaceReadsAsTheSameScene) {
-  const Result run(1.0);
-  Progress progress;
+  Result result(1.0);
+  CpuBackend cpu;
+  auto run = result.open(cpu);
   const auto folder = run.workspace.colmap_path();
-  const auto written = write_colmap_workspace(folder, run.scene, run.options, run.workspace, progress);
+  const auto written = write_colmap_workspace(run);
   ASSERT_TRUE(written) << written.error().message;
   const Scene again = read_scene(folder, {}).value();
   ASSERT_EQ(again.views.size(), run.scene.views.size());
@@ -143,11 +215,11 @@ TEST(PointScene, ColmapWorkspaceReadsAsTheSameScene) {
     EXPECT_EQ(view.neighbors, select_views(run.scene, i, run.options.views));
     EXPECT_EQ(read_file(view.image_path).value(), read_file(expected.image_path).value());
 
-    const DepthMap map = run.workspace.load_depth_map(expected.name, 96, 72).value();
+    const Grid<float> map = run.workspace.load_depth(expected.name, 96, 72).value();
     const std::string depth =
         read_file(folder / "stereo/depth_maps" / (expected.image_name + ".geometric.bin")).value();
     ASSERT_TRUE(depth.starts_with("96&72&1&"));
-    EXPECT_EQ(std::memcmp(depth.data() + 8, map.depth.values.data(), 96 * 72 * 4), 0);
+    EXPECT_EQ(std::memcmp(depth.data() + 8, map.values.data(), 96 * 72 * 4), 0);
     const std::string normals =
         read_file(folder / "stereo/normal_maps" / (expected.image_name + ".geometric.bin")).value();
     ASSERT_TRUE(normals.starts_with("96&72&3&"));
@@ -161,15 +233,15 @@ TEST(PointScene, ColmapWorkspaceReadsAsTheSameScene) {
 }
 
 TEST(PointScene, CloudAndWorkspaceKeepTheBudget) {
-  Result run(1.0);
-  Progress progress;
-  run.options.memory_bytes = 1 << 20;  // less than the process holds already
-  const auto cloud = fuse_points(run.scene, run.options, run.workspace, progress);
+  Result result(1.0);
+  result.options.memory_bytes = 1 << 20;  // less than the process holds already
+  CpuBackend cpu;
+  auto run = result.open(cpu);
+  const auto cloud = fuse_points(run);
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().kind, ErrorKind::kMemory);
   EXPECT_TRUE(cloud.error().message.starts_with("fusing points needs ")) << cloud.error().message;
-  const auto written =
-      write_colmap_workspace(run.workspace.colmap_path(), run.scene, run.options, run.workspace, progress);
+  const auto written = write_colmap_workspace(run);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().kind, ErrorKind::kMemory);
   EXPECT_TRUE(written.error().message.starts_with("writing for COLMAP needs ")) << written.error().message;
@@ -178,13 +250,14 @@ TEST(PointScene, CloudAndWorkspaceKeepTheBudget) {
 
 /// The cameras of a scene, and its depth maps in a given box, of neighbors by angle.
 std::vector<DepthMap> depth_maps_of(const Scene& scene, const std::filesystem::path& output) {
-  ReconstructOptions options;
+  RunOptions options;
   options.views.rule = ViewRule::kAngle;
+  options.saved_maps = SavedMaps::kAll;
   const Workspace workspace = Workspace::open(output).value();
   CpuBackend cpu({SimdLevel::kBaseline, 64, 16});
   Progress progress;
-  RunReport report;
-  compute_depth_maps(scene, options, cpu, workspace, progress, report).value();
+  quorum::Run run{scene, options, cpu, workspace, progress};
+  reconstruct(run, {.certainties = false, .mesh = false}).value();
   std::vector<DepthMap> maps;
   for (const View& view : scene.views)
     maps.push_back(workspace.load_depth_map(view.name, view.width, view.height).value());
@@ -239,10 +312,11 @@ TEST(PointScene, AllFormatsGiveTheSameDepthMapsToTheLastBit) {
 }
 
 TEST(PointScene, WorkspaceOfASceneWithoutPointsGetsSome) {
-  Result run(1.0);
-  run.scene.points.clear();
-  Progress progress;
-  write_colmap_workspace(run.workspace.colmap_path(), run.scene, run.options, run.workspace, progress).value();
+  Result result(1.0);
+  result.scene.points.clear();
+  CpuBackend cpu;
+  auto run = result.open(cpu);
+  write_colmap_workspace(run).value();
   const ColmapModel model = read_colmap_model(run.workspace.colmap_path() / "sparse").value();
   ASSERT_GT(model.points.size(), 50U);
   EXPECT_GT(std::ranges::count_if(model.points, [](const ColmapPoint& point) { return point.image_ids.size() >= 3; }),

@@ -40,15 +40,16 @@ struct GuardedRun {
       write_png(view.image_path, photograph).value();
     }
     const Workspace workspace = Workspace::open(folder.path() / "result").value();
-    ReconstructOptions options;
+    RunOptions options;
     options.sweep.depth_step = 0.0025;
     options.sweep.threshold = 0.6F;
     options.sweep.window_model = model;
     CpuBackend cpu({SimdLevel::kBaseline, 64, 16});
     LimitedBackend counting(cpu, std::size_t{1} << 30);
     Progress progress;
-    compute_depth_maps(scene, options, counting, workspace, progress, report).value();
-    fuse_depth_maps(scene, options, counting, workspace, progress, report).value();
+    Run run{scene, options, counting, workspace, progress};
+    reconstruct(run).value();
+    report = run.report;
     integrated_block_views = counting.integrated_block_views;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(workspace.folder()))
       if (entry.path().extension() == ".pfm" || entry.path().extension() == ".ply") bytes_written += entry.file_size();

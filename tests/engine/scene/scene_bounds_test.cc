@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/engine/scene/camera_paths.h"
+
 namespace quorum {
 namespace {
 
@@ -100,12 +102,12 @@ TEST(FindBounds, NoCommonFieldOfViewIsRefused) {
   }
   Scene outward = ring(4);
   for (View& view : outward.views) view.camera.translation.z() = -4;
-  for (const Scene& scene : {parallel, outward}) {
+  for (const Scene& scene : {parallel, outward, turn(4), walk(12), room(30)}) {
     const auto box = find_bounds(scene);
     ASSERT_FALSE(box);
     EXPECT_EQ(box.error().kind, ErrorKind::kInput);
     EXPECT_NE(box.error().message.find("no common field of view"), std::string::npos);
-    EXPECT_NE(box.error().message.find("--bounds"), std::string::npos);
+    EXPECT_NE(box.error().message.find("option bounds"), std::string::npos);
   }
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "tests/engine/scene/camera_paths.h"
+
 namespace quorum {
 namespace {
 
@@ -123,12 +125,83 @@ TEST(SelectViews, NeighborsOfTheFilesComeFirstUnlessARuleIsGiven) {
   EXPECT_EQ(select_views(scene, 0, options), (std::vector<int>{1, 2, 3, 4}));
 }
 
-TEST(SelectViewsOptions, NamesTheOptionOutOfRange) {
+TEST(SelectViews, WithoutPointsThePapersRuleStaysWhereItSees) {
+  const Scene scene = orbit(24);
+  SelectViewsOptions paper;
+  paper.rule = ViewRule::kAngle;
+  for (int view = 0; view < 24; ++view) EXPECT_EQ(select_views(scene, view, {}), select_views(scene, view, paper));
+}
+
+TEST(SelectViews, WithoutPointsParallaxIsAskedWhereThePapersRuleIsBlind) {
+  SelectViewsOptions paper;
+  paper.rule = ViewRule::kAngle;
+  SelectViewsOptions parallax;
+  parallax.rule = ViewRule::kParallax;
+  EXPECT_TRUE(select_views(strip(8), 3, paper).empty());
+  EXPECT_EQ(select_views(pans(6), 7, paper), (std::vector<int>{0, 2})) << "from other places, by luck";
+  for (const Scene& scene : {strip(8), pans(6)}) {
+    for (int view = 0; view < static_cast<int>(scene.views.size()); ++view) {
+      EXPECT_EQ(select_views(scene, view, {}), select_views(scene, view, parallax));
+      EXPECT_GE(select_views(scene, view, {}).size(), 2U);
+    }
+  }
+}
+
+TEST(SelectViews, ViewsFromOnePlaceAreNeverNeighborsWhoeverNamesThem) {
+  Scene scene = turn(12);
+  EXPECT_TRUE(select_views(scene, 5, {}).empty());
+  scene.views[5].neighbors = {4, 6, 3};
+  EXPECT_TRUE(select_views(scene, 5, {}).empty());
+  for (int i = 0; i < 40; ++i)
+    scene.points.push_back({{0.3 + 2.5, 0.1 * (i % 7), 0.05 * i - 1}, {0, 1, 2, 3, 4, 5, 6}});
+  EXPECT_TRUE(select_views(scene, 5, {}).empty());
   SelectViewsOptions options;
-  options.neighbor_count = 1;
-  ASSERT_FALSE(options.check());
-  EXPECT_NE(options.check().error().message.find("--neighbors 1"), std::string::npos);
-  EXPECT_EQ(options.check().error().kind, ErrorKind::kUsage);
+  options.rule = ViewRule::kPoints;
+  EXPECT_TRUE(select_views(scene, 5, options).empty());
+}
+
+TEST(SelectViews, ViewsOfOneContentFromOnePlaceCountOnce) {
+  Scene scene = around_points({0, 20, -20, 40, -40});
+  for (View& view : scene.views) {
+    view.width = 640;
+    view.height = 480;
+  }
+  scene.bounds = {Eigen::Vector3d::Constant(-1), Eigen::Vector3d::Constant(1)};
+  const auto chosen = select_views(scene, 0, {});
+  ASSERT_EQ(chosen.size(), 4U);
+  const std::vector<View> once = scene.views;
+  scene.views.insert(scene.views.end(), once.begin(), once.end());
+  for (SparsePoint& point : scene.points) point.views = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  EXPECT_EQ(select_views(scene, 0, {}), chosen);
+  EXPECT_TRUE(select_views(scene, 5, {}).empty()) << "repeats view 0";
+}
+
+TEST(SelectViews, ACopyLeavesItsPlaceToTheNext) {
+  Scene scene = orbit(16);
+  SelectViewsOptions paper;
+  paper.rule = ViewRule::kAngle;
+  const auto chosen = select_views(scene, 2, paper);
+  scene.views.insert(scene.views.begin(), scene.views[3]);  // view 3, which is now 4, repeats it
+  EXPECT_TRUE(select_views(scene, 4, {}).empty());
+  const auto with_copy = select_views(scene, 3, {});
+  EXPECT_EQ(with_copy.size(), chosen.size());
+  EXPECT_EQ(std::ranges::count(with_copy, 0), 1);
+  EXPECT_EQ(std::ranges::count(with_copy, 4), 0);
+}
+
+TEST(SelectViews, AViewWithoutPointsIsHelpedByParallax) {
+  Scene scene = orbit(24);
+  for (int i = 0; i < 40; ++i) scene.points.push_back({{0.01 * i, -0.01 * (i % 7), 0.02 * (i % 5)}, {0, 1, 2, 22, 23}});
+  EXPECT_GE(select_views(scene, 12, {}).size(), 2U);
+}
+
+TEST(NoNeighborsError, SaysWhetherThePhotographsAreFromOnePlace) {
+  const Error one_place = no_neighbors_error(turn(12), {});
+  EXPECT_EQ(one_place.kind, ErrorKind::kInput);
+  EXPECT_NE(one_place.message.find("from about one place"), std::string::npos);
+  const Error apart = no_neighbors_error(orbit(3), {});
+  EXPECT_NE(apart.message.find("no view has two neighbor views"), std::string::npos);
+  EXPECT_NE(apart.message.find("max-angle"), std::string::npos);
 }
 
 }  // namespace

@@ -95,15 +95,15 @@ TEST(TempleOptions, EachRangeIsChecked) {
     EXPECT_EQ(checked.error().kind, ErrorKind::kUsage);
     return checked.error().message;
   };
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.views = 2; }), "--views 2: give 3 to 1024");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.views = 1025; }), "--views 1025: give 3 to 1024");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.width = 63; }), "--width 63: give 64 to 8192");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.width = 8193; }), "--width 8193: give 64 to 8192");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = -0.5; }), "--noise -0.5: give 0 to 64");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = 64.5; }), "--noise 64.5: give 0 to 64");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.texture = -1; }), "--texture -1: give 0 to 4");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.texture = 4.5; }), "--texture 4.5: give 0 to 4");
-  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = std::nan(""); }), "--noise nan: give 0 to 64");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.views = 2; }), "option views 2: give 3 to 1024");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.views = 1025; }), "option views 1025: give 3 to 1024");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.width = 63; }), "option width 63: give 64 to 8192");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.width = 8193; }), "option width 8193: give 64 to 8192");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = -0.5; }), "option noise -0.5: give 0 to 64");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = 64.5; }), "option noise 64.5: give 0 to 64");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.texture = -1; }), "option texture -1: give 0 to 4");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.texture = 4.5; }), "option texture 4.5: give 0 to 4");
+  EXPECT_EQ(error_with([](TempleOptions& o) { o.noise = std::nan(""); }), "option noise nan: give 0 to 64");
   EXPECT_EQ(error_with([](TempleOptions& o) { o = {3, CameraPath::kHemisphere, 64, 0, 0, 0}; }), "none");
   EXPECT_EQ(error_with([](TempleOptions& o) { o = {1024, CameraPath::kRing, 8192, 64, 4, 7}; }), "none");
 }

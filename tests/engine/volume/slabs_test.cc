@@ -29,7 +29,7 @@ TEST(Slabs, TogetherHoldEachBlockOnceInOrder) {
   for (const std::size_t most : {std::size_t{4}, std::size_t{9}, std::size_t{30}, blocks.size()}) {
     std::vector<std::uint32_t> cores;
     while (cores.size() < blocks.size()) {
-      const Slab slab = make_slab(blocks, cores.size(), grid, most);
+      const Slab slab = make_slab(blocks, cores.size(), blocks.size(), grid, most);
       ASSERT_GT(slab.core_count, 0U);
       ASSERT_LE(slab.blocks.size(), most);
       ASSERT_TRUE(std::ranges::is_sorted(slab.blocks));
@@ -43,7 +43,7 @@ TEST(Slabs, TogetherHoldEachBlockOnceInOrder) {
 TEST(Slabs, HoldTheStoredNeighborsOfTheirCoreAlongEachAxis) {
   const VoxelGrid grid = make_grid();
   const auto blocks = some_blocks(grid);
-  const Slab slab = make_slab(blocks, 10, grid, 30);
+  const Slab slab = make_slab(blocks, 10, blocks.size(), grid, 30);
   ASSERT_LT(slab.core_count, 30U);
   std::vector<std::uint32_t> expected(slab.blocks.begin(),
                                       slab.blocks.begin() + static_cast<std::ptrdiff_t>(slab.core_count));
@@ -63,11 +63,11 @@ TEST(Slabs, HoldTheStoredNeighborsOfTheirCoreAlongEachAxis) {
 TEST(Slabs, OneHoldsAllWhereThereIsRoom) {
   const VoxelGrid grid = make_grid();
   const auto blocks = some_blocks(grid);
-  EXPECT_EQ(make_slab(blocks, 0, grid, blocks.size()).blocks, blocks);
-  EXPECT_EQ(make_slab(blocks, 0, grid, blocks.size()).core_count, blocks.size());
-  EXPECT_LT(make_slab(blocks, 0, grid, blocks.size() - 1).core_count, blocks.size() - 1);
-  EXPECT_TRUE(make_slab(blocks, blocks.size(), grid, 4).blocks.empty());
-  EXPECT_TRUE(make_slab({}, 0, grid, 4).blocks.empty());
+  EXPECT_EQ(make_slab(blocks, 0, blocks.size(), grid, blocks.size()).blocks, blocks);
+  EXPECT_EQ(make_slab(blocks, 0, blocks.size(), grid, blocks.size()).core_count, blocks.size());
+  EXPECT_LT(make_slab(blocks, 0, blocks.size(), grid, blocks.size() - 1).core_count, blocks.size() - 1);
+  EXPECT_TRUE(make_slab(blocks, blocks.size(), blocks.size(), grid, 4).blocks.empty());
+  EXPECT_TRUE(make_slab({}, 0, 0, grid, 4).blocks.empty());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/engine/scene/camera_paths.h"
 #include "tests/support/sphere_scene.h"
 
 namespace quorum {
@@ -32,6 +33,12 @@ TEST(VoxelGrid, AutomaticVoxelsAreAPixelsFootprintAndTheTruncationThreeOrFour) {
   FusionOptions along_rays;
   along_rays.signed_distance = SignedDistance::kRay;
   EXPECT_NEAR(make_voxel_grid(scene, along_rays).value().truncation, 4 * grid.voxel_size, 1e-12);
+}
+
+TEST(VoxelGrid, AroundCamerasInARoomAutomaticVoxelsFollowFromTheirRays) {
+  const VoxelGrid grid = make_voxel_grid(room(45), {}).value();  // its center lies behind every camera
+  EXPECT_GT(grid.voxel_size, 0.5 / 300);
+  EXPECT_LT(grid.voxel_size, 3.0 / 300);
 }
 
 TEST(VoxelGrid, BlockIndicesAndPositionsAreInverse) {

@@ -1,0 +1,11 @@
+# Programs that search for inputs that break the readers (libFuzzer, so clang++ alone builds them); tools/fuzz.sh.
+add_library(quorum_fuzz_support STATIC tests/fuzz/fuzz_folder.cc)
+quorum_options(quorum_fuzz_support)
+file(GLOB fuzzers CONFIGURE_DEPENDS tests/fuzz/*_fuzz.cc)
+foreach(source IN LISTS fuzzers)
+  cmake_path(GET source STEM name)
+  add_executable(${name} ${source})
+  quorum_options(${name})
+  target_link_libraries(${name} PRIVATE quorum_engine quorum_fuzz_support)
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+endforeach()

@@ -1,0 +1,18 @@
+// The sweep of a view whose images were halved: images, cameras and warps.
+#pragma once
+
+#include <vector>
+
+#include "engine/depth/sweep_task.h"
+#include "engine/scene/scene.h"
+
+namespace quorum {
+
+/// The camera of an image that was halved this often; see limit_image_size().
+Camera small_camera(Camera camera, int halvings);
+
+/// The task with all images halved this often; without planes and ranges. reference, neighbors: the views of the task.
+SweepTask make_small_task(const SweepTask& task, const View& reference, const std::vector<const View*>& neighbors,
+                          int halvings);
+
+}  // namespace quorum

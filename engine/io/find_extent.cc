@@ -1,0 +1,69 @@
+#include "engine/io/find_extent.h"
+
+#include <algorithm>
+
+#include "engine/core/option.h"
+#include "engine/depth/coarse_sweep.h"
+#include "engine/io/image_store.h"
+#include "engine/scene/limit_image_size.h"
+#include "engine/scene/scene_bounds.h"
+
+namespace quorum {
+namespace {
+
+/// The scene with small images and the points of a coarse sweep.
+Expected<Scene> sweep_small(const Scene& scene) {
+  constexpr std::size_t kKeptBytes = std::size_t{64} << 20;
+  Scene small = scene;
+  limit_image_size(small, kCoarseImageSize);
+  ImageStore images(small, kKeptBytes);
+  const auto read = [&](int view) -> Expected<PaddedImage> {
+    QUORUM_ASSIGN(const auto image, images.image(view));
+    return pad_image(*image);
+  };
+  QUORUM_ASSIGN(small.points, coarse_sweep(small, read));
+  return small;
+}
+
+void take_range(const View& from, View& to) {
+  to.near_depth = from.near_depth;
+  to.far_depth = from.far_depth;
+}
+
+bool stands_in(const View& view, const Bounds& box) {
+  const Eigen::Vector3d center = view.camera.center();
+  return (center.array() >= box.low.array()).all() && (center.array() <= box.high.array()).all();
+}
+
+}  // namespace
+
+Expected<void> find_extent(Scene& scene) {
+  if (const auto known = find_bounds(scene)) {
+    scene.bounds = *known;
+    return {};
+  }
+  QUORUM_ASSIGN(auto small, sweep_small(scene));
+  const auto found = find_bounds(small);
+  if (!found)
+    return failure(ErrorKind::kInput,
+                   "the views have no common field of view, and the photographs show no depth: they are from about one "
+                   "place, or have no texture; take them from places that are apart, or say where the object is with " +
+                       option_name("bounds") + " \"x0 y0 z0 x1 y1 z1\"");
+  small.bounds = *found;
+  find_depth_ranges(small);
+  scene.bounds = small.bounds;
+  for (std::size_t view = 0; view < scene.views.size(); ++view) take_range(small.views[view], scene.views[view]);
+  return {};
+}
+
+Expected<void> find_ranges_inside(Scene& scene) {
+  const auto unknown = [&](const View& view) { return view.far_depth == 0.0 && stands_in(view, scene.bounds); };
+  if (std::ranges::none_of(scene.views, unknown)) return {};
+  QUORUM_ASSIGN(auto small, sweep_small(scene));
+  find_depth_ranges(small);
+  for (std::size_t view = 0; view < scene.views.size(); ++view)
+    if (unknown(scene.views[view])) take_range(small.views[view], scene.views[view]);
+  return {};
+}
+
+}  // namespace quorum

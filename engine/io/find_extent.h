@@ -1,0 +1,18 @@
+// Bounds and depth ranges of a scene whose files give none.
+#pragma once
+
+#include "engine/core/error.h"
+#include "engine/scene/scene.h"
+
+namespace quorum {
+
+/// Sets the bounds: find_bounds, and where that knows none, those of the points of a coarse_sweep, which also give
+/// depth ranges. The points themselves are not kept. Fails (kInput) if neither finds enough, or a photograph can't be
+/// read.
+Expected<void> find_extent(Scene& scene);
+
+/// Sets the depth ranges of the views whose cameras stand in the bounds, where the box says little, to those of the
+/// points of a coarse_sweep. Without enough of them the views keep what they have. Fails if a photograph can't be read.
+Expected<void> find_ranges_inside(Scene& scene);
+
+}  // namespace quorum

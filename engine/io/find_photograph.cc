@@ -1,0 +1,63 @@
+#include "engine/io/find_photograph.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace quorum {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+/// The file, or the one with a like extension.
+fs::path with_like_extension(const fs::path& path) {
+  if (is_file(path)) return path;
+  std::string extension = path.extension().string();
+  for (int (*change)(int) : {&::tolower, &::toupper}) {
+    std::ranges::transform(extension, extension.begin(),
+                           [change](unsigned char c) { return static_cast<char>(change(c)); });
+    if (fs::path other = fs::path(path).replace_extension(extension); !extension.empty() && is_file(other))
+      return other;
+  }
+  if (extension.size() == 4 || extension.size() == 5) return {};  // no a.jpg.png for a.jpg: that is its mask
+  for (const char* usual :
+       {".png", ".jpg", ".JPG", ".jpeg", ".JPEG", ".PNG", ".tif", ".tiff", ".TIF", ".webp", ".heic", ".HEIC", ".avif"})
+    if (fs::path other = path.string() + usual; is_file(other)) return other;
+  return {};
+}
+
+/// The end of a path below the folder, the longest one first.
+fs::path by_end(const fs::path& folder, const fs::path& path) {
+  for (auto part = path.begin(); part != path.end(); ++part) {
+    fs::path end;
+    for (auto at = part; at != path.end(); ++at) end /= *at;
+    if (end.is_absolute() || end.empty()) continue;
+    if (fs::path found = with_like_extension(folder / end); !found.empty()) return found;
+  }
+  return {};
+}
+
+}  // namespace
+
+fs::path find_photograph(const fs::path& folder, const std::string& name) {
+  if (name.empty()) return {};
+  if (fs::path found = with_like_extension(folder / name); !found.empty()) return found;
+  std::string slashed = name;
+  std::ranges::replace(slashed, '\\', '/');
+  const bool has_drive = slashed.size() > 2 && slashed[1] == ':' && slashed[2] == '/';
+  if (has_drive || slashed.starts_with('/')) return by_end(folder, slashed);
+  return slashed != name ? with_like_extension(folder / slashed) : fs::path();
+}
+
+fs::path find_photograph_by_end(const fs::path& folder, const std::string& name) {
+  if (fs::path found = find_photograph(folder, name); !found.empty()) return found;
+  std::string slashed = name;
+  std::ranges::replace(slashed, '\\', '/');
+  return by_end(folder, fs::path(slashed).lexically_normal());
+}
+
+}  // namespace quorum
