@@ -17,9 +17,14 @@ export QUORUM_REQUIRE_DEVICE=1
 export UBSAN_OPTIONS="print_stacktrace=1"
 failed=0
 bash tools/check.sh || failed=1
+# A test that fails runs a second time: software Vulkan fails now and then where all is right. Those that passed only then
+# are named, for a result that changes from run to run is a fault.
 for preset in debug release; do
   echo
   echo "Tests of the $preset build"
-  ctest --preset "$preset" --parallel 2 || failed=1
+  log="build/$preset/tests.log"
+  ctest --preset "$preset" --parallel 2 --repeat until-pass:2 2>&1 | tee "$log"
+  [[ "${PIPESTATUS[0]}" -eq 0 ]] || failed=1
+  sed -nE 's/^.*Test +#[0-9]+: ([^ ]+) \.*[^.]*\*\*\*(Failed|Exception|Timeout).*/Failed once: \1/p' "$log" | sort -u
 done
 exit "$failed"

@@ -45,6 +45,10 @@ class Program {
   pid_t process_ = -1;
 };
 
+/// Whether a process of this group still runs. One that has ended and that nobody has waited for does not: where the
+/// first process of a container takes over orphans, it may never wait.
+bool group_runs(pid_t group);
+
 /// All bytes of a file; empty if there is none.
 std::string file_bytes(const std::filesystem::path& path);
 
