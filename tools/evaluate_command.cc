@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/core/option_maker.h"
 #include "engine/experiment/missed_truth.h"
 #include "engine/io/ply.h"
 #include "engine/io/scene_folder.h"

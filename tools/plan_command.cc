@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "engine/core/parse_number.h"
 #include "engine/pipeline/plan.h"
 #include "tools/messages.h"
 #include "tools/open_backend.h"

@@ -1,4 +1,5 @@
 // quorum synthesize: a scene of known shape, as a Middlebury folder with its exact surface.
+#include "engine/core/option_maker.h"
 #include "engine/pipeline/synthesize.h"
 #include "tools/add_options.h"
 

@@ -1,8 +1,11 @@
 #include "engine/core/option.h"
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <span>
+
+#include "engine/core/option_maker.h"
 
 namespace quorum {
 namespace {

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/option_maker.h"
 #include "engine/mesh/make_manifold.h"
 #include "engine/texture/assemble.h"
 #include "engine/texture/nearness_buffer.h"

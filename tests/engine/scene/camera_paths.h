@@ -1,6 +1,7 @@
 // Cameras as people carry them, 320 x 240 pixels with a focal length of 300.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
