@@ -47,6 +47,11 @@ Expected<void> check_before(Run& run, const RunSteps& steps) {
   QUORUM_TRY(check_shard(run.options));
   if (steps.mesh) {
     QUORUM_ASSIGN(const VoxelGrid grid, make_voxel_grid(run.scene, run.options.fusion));
+    if (grid.is_coarse)
+      run.progress.note(
+          fmt::format("voxels of {:.4g} are coarser than the pixels, for the bounds would hold too many; "
+                      "give smaller {}",
+                      grid.voxel_size, option_name("bounds")));
     run.budget.foresee(least_run_bytes(run.scene, run.options, run.backend, grid));
     QUORUM_TRY(check_writable(run.workspace.mesh_path()));
   }

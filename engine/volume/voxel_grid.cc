@@ -43,20 +43,11 @@ double median_footprint(const Scene& scene) {
   return *middle;
 }
 
-}  // namespace
+constexpr double kMaxBlocks = 1 << 30;
 
-Expected<VoxelGrid> make_voxel_grid(const Scene& scene, const FusionOptions& options) {
-  constexpr double kMaxBlocks = 1 << 30;
-  VoxelGrid grid;
-  grid.voxel_size = options.voxel_size > 0 ? options.voxel_size : median_footprint(scene);
-  if (!(grid.voxel_size > 0))
-    return failure(ErrorKind::kInput,
-                   "the center of the bounds lies behind every camera; check " + option_name("bounds"));
-  const double truncation_in_voxels = options.signed_distance == SignedDistance::kNormal ? 3.0 : 4.0;
-  grid.truncation = options.truncation > 0 ? options.truncation : truncation_in_voxels * grid.voxel_size;
-  if (grid.truncation < 1.5 * grid.voxel_size || grid.truncation > 32 * grid.voxel_size)
-    return failure(ErrorKind::kUsage, fmt::format("{} {}: give 1.5 to 32 times the voxel size {}",
-                                                  option_name("truncation"), grid.truncation, grid.voxel_size));
+/// Lays blocks of the grid's voxels over the bounds and a margin. How many; not all where they are more than
+/// kMaxBlocks.
+double lay_blocks(const Scene& scene, VoxelGrid& grid) {
   const Bounds bounds = scene.bounds.expanded(grid.truncation + grid.voxel_size);
   grid.origin = bounds.low;
   double blocks = 1.0;
@@ -65,7 +56,32 @@ Expected<VoxelGrid> make_voxel_grid(const Scene& scene, const FusionOptions& opt
     blocks *= count;
     grid.blocks[static_cast<std::size_t>(axis)] = static_cast<int>(std::min(count, kMaxBlocks));
   }
-  if (blocks > kMaxBlocks)
+  return blocks;
+}
+
+}  // namespace
+
+Expected<VoxelGrid> make_voxel_grid(const Scene& scene, const FusionOptions& options) {
+  constexpr double kCoarser = 1.25;
+  const bool automatic = !(options.voxel_size > 0);
+  const double wanted = automatic ? median_footprint(scene) : options.voxel_size;
+  VoxelGrid grid;
+  grid.voxel_size = wanted;
+  if (!(grid.voxel_size > 0))
+    return failure(ErrorKind::kInput,
+                   "the center of the bounds lies behind every camera; check " + option_name("bounds"));
+  const double truncation_in_voxels = options.signed_distance == SignedDistance::kNormal ? 3.0 : 4.0;
+  double blocks = 0.0;
+  for (;; grid.voxel_size *= kCoarser) {
+    grid.truncation = options.truncation > 0 ? options.truncation : truncation_in_voxels * grid.voxel_size;
+    blocks = lay_blocks(scene, grid);
+    if (blocks <= kMaxBlocks || !automatic || !std::isfinite(grid.voxel_size)) break;
+  }
+  grid.is_coarse = grid.voxel_size > wanted;
+  if (grid.truncation < 1.5 * grid.voxel_size || grid.truncation > 32 * grid.voxel_size)
+    return failure(ErrorKind::kUsage, fmt::format("{} {}: give 1.5 to 32 times the voxel size {}",
+                                                  option_name("truncation"), grid.truncation, grid.voxel_size));
+  if (!(blocks <= kMaxBlocks))
     return failure(ErrorKind::kUsage,
                    fmt::format("{} {}: the bounds would hold {:.3g} blocks of 8x8x8 voxels, more than {:.0f}; "
                                "give a larger voxel or smaller bounds",

@@ -20,6 +20,7 @@ struct VoxelGrid {
   double voxel_size = 0.0;                           ///< scene units
   double truncation = 0.0;                           ///< scene units
   std::array<int, 3> blocks = {0, 0, 0};             ///< along x, y, z
+  bool is_coarse = false;  ///< automatic voxels are larger than a pixel's footprint, of which there would be too many
 
   [[nodiscard]] std::size_t block_count() const {
     return static_cast<std::size_t>(blocks[0]) * static_cast<std::size_t>(blocks[1]) *
@@ -37,8 +38,9 @@ struct VoxelGrid {
 /// The lattice over the scene's bounds and one truncation more on each side. Automatic voxel size: the median of a
 /// pixel's footprint at the sparse points within the bounds, over the views that see them, or, without points, at the
 /// center of the bounds, over all views, or, if a camera stands inside the bounds, at points on all views' rays
-/// (sample_rays); automatic truncation: 3 voxels, or 4 of a distance along the line of sight.
-/// Fails (kUsage) if the grid would have more than 2^30 blocks, or the truncation is out of 1.5..32 voxels.
+/// (sample_rays), and steps of a quarter coarser where that would make more than 2^30 blocks; automatic truncation: 3
+/// voxels, or 4 of a distance along the line of sight.
+/// Fails (kUsage) if voxels of a given size make more than 2^30 blocks, or the truncation is out of 1.5..32 voxels.
 Expected<VoxelGrid> make_voxel_grid(const Scene& scene, const FusionOptions& options);
 
 /// One voxel: sums over the views that saw it. Integers, so the order of the views does not matter.

@@ -71,6 +71,19 @@ TEST(VoxelGrid, GridsBeyondTheLimitAreRefusedWithARemedy) {
   EXPECT_NE(grid.error().message.find("larger voxel"), std::string::npos) << grid.error().message;
 }
 
+TEST(VoxelGrid, AutomaticVoxelsAreCoarserWhereTheBoundsHoldTooManyOfThem) {
+  Scene scene = make_sphere_scene(3, 60, 40, false, 1).scene;
+  const double footprint = make_voxel_grid(scene, {}).value().voxel_size;
+  EXPECT_FALSE(make_voxel_grid(scene, {}).value().is_coarse);
+  for (View& view : scene.views) view.camera.intrinsics.topRows<2>() *= 1000.0;
+  const VoxelGrid grid = make_voxel_grid(scene, {}).value();
+  EXPECT_TRUE(grid.is_coarse);
+  EXPECT_GT(grid.voxel_size, footprint / 1000);
+  EXPECT_LE(grid.block_count(), std::size_t{1} << 30);
+  EXPECT_GT(grid.block_count(), std::size_t{1} << 28) << "no coarser than it must be";
+  EXPECT_NEAR(grid.truncation, 3 * grid.voxel_size, 1e-12);
+}
+
 TEST(VoxelGrid, TruncationOutOfRangeIsRefused) {
   const Scene scene = make_sphere_scene(2, 60, 40, false, 1).scene;
   FusionOptions options;
