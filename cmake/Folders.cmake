@@ -16,6 +16,7 @@ set(QUORUM_PACKAGES
   "SPIRV   | ${SPIRV_CROSS_LIBRARY}                      | spirv_cross"
   "pugixml | pugixml::pugixml                            | pugixml"
   "heif    | ${HEIF_LIBRARY}                             | libheif/"
+  "JPEG    | JPEG::JPEG                                  | jpeglib.h jerror.h"
   "stb     |                                             | stb/"
   "CLI11   | CLI11::CLI11                                | CLI/"
   "gtest   | GTest::gtest                                | gtest/")
@@ -25,7 +26,7 @@ set(QUORUM_PACKAGES
 set(QUORUM_FOLDERS
   "shaders            |                                                              |"
   "engine/core        |                                                              | Eigen fmt TBB"
-  "engine/camera      | core                                                         | Eigen"
+  "engine/camera      | core                                                         | Eigen fmt"
   "engine/image       | shaders core                                                 |"
   "engine/scene       | core camera                                                  | Eigen fmt"
   "engine/depth       | shaders core camera image scene                              | Eigen fmt TBB"
@@ -34,7 +35,7 @@ set(QUORUM_FOLDERS
   "engine/render      | core camera image mesh                                       | Eigen fmt TBB Embree"
   "engine/evaluate    | core camera scene mesh                                       | Eigen fmt TBB Embree"
   "engine/synthetic   | core image scene mesh                                        | Eigen fmt TBB"
-  "engine/io          | core camera image scene depth mesh                           | Eigen fmt json OpenCV OpenSSL glTF pugixml heif"
+  "engine/io          | core camera image scene depth mesh                           | Eigen fmt json OpenCV OpenSSL glTF pugixml heif JPEG"
   "engine/texture     | core camera image scene mesh io                              | Eigen fmt TBB stb"
   "engine/pipeline    | core camera image scene depth volume mesh synthetic io texture | fmt TBB json"
   "engine/bench       | core io pipeline                                             | fmt json"

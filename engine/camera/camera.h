@@ -10,6 +10,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 namespace quorum {
 
@@ -39,5 +40,13 @@ double optical_axis_angle_deg(const Camera& a, const Camera& b);
 
 /// Says why K or R is no camera ("K is singular", "R is not a rotation: …"), or null if it is one.
 const char* camera_defect(const Camera& camera);
+
+/// Says which value of a camera, that is one, no photograph of this size, in pixels, was taken with, and why: a focal
+/// length that shows more than 157 or less than 0.0006 degrees, focal lengths that differ tenfold, a principal point a
+/// hundred pictures away, a position beyond 1e13. Empty if all can be.
+std::string absurd_value(const Camera& camera, int width, int height);
+
+/// What helps where a camera has a defect or an absurd value.
+inline constexpr const char* kCameraRemedy = "correct it, or leave the view out";
 
 }  // namespace quorum

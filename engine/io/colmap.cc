@@ -46,8 +46,9 @@ Expected<Camera> camera_of(const ColmapImage& image) {
   camera.camera_from_world = rotation_of_quaternion(image.rotation);
   camera.translation = image.translation;
   if (const char* defect = camera_defect(camera); defect != nullptr || !(norm > 1e-6))
-    return failure(ErrorKind::kInput, fmt::format("image {} (\"{}\"): its pose is none: {}", image.id, image.name,
-                                                  defect != nullptr ? defect : "the quaternion is zero"));
+    return failure(ErrorKind::kInput,
+                   fmt::format("image {} (\"{}\"): its pose is none: {}; {}", image.id, image.name,
+                               defect != nullptr ? defect : "the quaternion is zero", kCameraRemedy));
   return camera;
 }
 

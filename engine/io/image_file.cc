@@ -134,6 +134,9 @@ Expected<cv::Mat> decode_bytes(const std::filesystem::path& path, std::string by
     return image_failure(path, fmt::format("{} bytes are not an image; replace the file", bytes.size()));
   if (const std::string why = why_unread(path, bytes, true); !why.empty()) return image_failure(path, why);
   if (is_heif(bytes)) return decode_heif_as(path, bytes, flags);
+  // Without the marker of the end OpenCV leaves the last rows out.
+  constexpr std::string_view kJpegEnd = "\xff\xd9";
+  if (bytes.starts_with("\xff\xd8") && !bytes.ends_with(kJpegEnd)) bytes += kJpegEnd;
   try {
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
     cv::Mat image;

@@ -94,6 +94,8 @@ Expected<Scene> read_views(const fs::path& folder, const fs::path& images, const
     QUORUM_ASSIGN(const auto header, read_image_header(view.image_path));
     view.width = header.size.width;
     view.height = header.size.height;
+    if (const std::string absurd = absurd_value(view.camera, view.width, view.height); !absurd.empty())
+      return failure_at_line(par_file, line_of.at(view.image_name), fmt::format("{}; {}", absurd, kCameraRemedy));
     if (!header.has_alpha) continue;
     view.mask_path = view.image_path;
     ++alpha_count;

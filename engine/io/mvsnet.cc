@@ -55,7 +55,8 @@ Expected<MvsnetCamera> parse_camera(const fs::path& path, std::string_view text)
     words.fail("depth_min, interval, count and depth_max give no range of depths");
   if (!words.at_end()) words.fail("more follows than a camera");
   QUORUM_TRY(words.done());
-  if (const char* defect = camera_defect(result.camera); defect != nullptr) return path_failure(path, defect);
+  if (const char* defect = camera_defect(result.camera); defect != nullptr)
+    return path_failure(path, fmt::format("{}; {}", defect, kCameraRemedy));
   if (result.camera.intrinsics(0, 1) != 0.0) return path_failure(path, "its camera has skew, which is not supported");
   return result;
 }

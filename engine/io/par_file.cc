@@ -50,7 +50,8 @@ Expected<ParLine> parse_view(const std::filesystem::path& path, int line, std::v
     numbers[i] = *number;
   }
   ParLine view{line, std::string(tokens[0]), camera_of(numbers)};
-  if (const char* defect = camera_defect(view.camera); defect != nullptr) return failure_at_line(path, line, defect);
+  if (const char* defect = camera_defect(view.camera); defect != nullptr)
+    return failure_at_line(path, line, fmt::format("{}; {}", defect, kCameraRemedy));
   return view;
 }
 

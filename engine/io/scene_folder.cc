@@ -16,6 +16,7 @@
 #include "engine/io/find_extent.h"
 #include "engine/io/image_file.h"
 #include "engine/io/image_size.h"
+#include "engine/io/jpeg_flaw.h"
 #include "engine/io/masks.h"
 #include "engine/io/middlebury.h"
 #include "engine/io/mvsnet.h"
@@ -24,6 +25,7 @@
 #include "engine/io/sfm_formats.h"
 #include "engine/io/text.h"
 #include "engine/io/transforms.h"
+#include "engine/io/view_list.h"
 #include "engine/scene/check_bounds.h"
 #include "engine/scene/limit_image_size.h"
 #include "engine/scene/local_frame.h"
@@ -97,6 +99,20 @@ Expected<void> note_pixel_range(Scene& scene) {
   if (header.bits <= 8 || decoded_bytes(header) > kMostBytes) return {};
   QUORUM_ASSIGN(const auto range, describe_pixel_range(scene.views.front().image_path));
   if (!range.empty()) scene.notes.push_back(range);
+  return {};
+}
+
+/// JPEG files that lack nothing but the marker of their end are taken, and told.
+Expected<void> note_missing_ends(Scene& scene) {
+  std::vector<std::string> names;
+  for (const View& view : scene.views) {
+    QUORUM_ASSIGN(const bool lacks_end, is_jpeg_without_end(view.image_path));
+    if (lacks_end) names.push_back(view.image_name);
+  }
+  if (!names.empty())
+    scene.notes.push_back(
+        fmt::format("{} photographs lack the marker of a JPEG file's end, and are whole without it: {}", names.size(),
+                    names_in_short(names)));
   return {};
 }
 
@@ -189,6 +205,7 @@ Expected<Scene> read_scene(const fs::path& folder, const SceneOptions& options) 
   }
   auto scene = read_views(folder, options, given);
   if (!scene) return scene;
+  QUORUM_TRY(note_missing_ends(*scene));
   QUORUM_TRY(note_pixel_range(*scene));
   for (std::string& note : scene->notes) note = printable(note);
   if (options.max_image_size > 0) limit_image_size(*scene, options.max_image_size);

@@ -227,6 +227,7 @@ Expected<Lens> lens_of_frame(const Json& frame, const Json& file, ImageSize size
   lens.principal = {fields.number("cx").value_or(lens.width / 2.0) - 0.5,
                     fields.number("cy").value_or(lens.height / 2.0) - 0.5};
   set_coefficients(fields, model, is_fisheye, lens);
+  if (!fields.number("w") && !fields.number("h")) lens.width = lens.height = 0;
   QUORUM_TRY(fields.done());
   return lens;
 }

@@ -1,9 +1,11 @@
 #include "engine/io/unread_image.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <cstdint>
 
+#include "engine/io/jpeg_flaw.h"
 #include "engine/io/view_names.h"
 
 namespace quorum {
@@ -25,21 +27,15 @@ constexpr Beginning kBeginnings[] = {
     {"%PDF", "is a PDF file; give the photograph itself"},
     {"version https://git-lfs", "is a pointer of Git LFS in place of the photograph; get it with git lfs pull"}};
 
-std::uint32_t byte_at(std::string_view bytes, std::size_t at) { return static_cast<unsigned char>(bytes[at]); }
-
-/// True if the data behind the first scan's header never comes to the marker of the end; in it 0xff has 0 behind it.
-bool lacks_end(std::string_view jpeg) {
-  constexpr std::uint32_t kScan = 0xda;
-  for (std::size_t at = 2; at + 4 <= jpeg.size() && byte_at(jpeg, at) == 0xff;) {
-    const std::uint32_t kind = byte_at(jpeg, at + 1);
-    if (kind == 0xff) {
-      ++at;
-      continue;
-    }
-    if (kind == kScan) return jpeg.find("\xff\xd9", at) == std::string_view::npos;
-    at += 2 + (byte_at(jpeg, at + 2) << 8 | byte_at(jpeg, at + 3));
-  }
-  return false;  // damage that decoders tell
+/// Of a JPEG file; empty if it is whole, maybe but for the marker behind it.
+std::string why_not_whole(std::string_view jpeg) {
+  constexpr std::string_view kRemedy = "copy it again, or save it anew if it looks whole";
+  const JpegFlaw flaw = find_jpeg_flaw(jpeg);
+  if (flaw.kind == JpegFlaw::Kind::kCut)
+    return fmt::format("ends too early, and its lower part would be gray; {}", kRemedy);
+  if (flaw.kind != JpegFlaw::Kind::kDamaged) return {};
+  if (flaw.row == 0) return fmt::format("is damaged within the picture; {}", kRemedy);
+  return fmt::format("is damaged within the picture, from about row {} of {} on; {}", flaw.row, flaw.height, kRemedy);
 }
 
 }  // namespace
@@ -52,9 +48,7 @@ std::string why_unread(const std::filesystem::path& path, std::string_view bytes
       std::ranges::count(kRawEndings, folded(path.extension().string())) > 0)
     return "is a raw photograph; develop all of them to TIFF, PNG or JPEG of the same size (darktable-cli, "
            "rawtherapee-cli)";
-  if (is_whole && is_jpeg && lacks_end(bytes))
-    return "ends too early, and its lower part would be gray; copy it again, or save it anew if it looks whole";
-  return {};
+  return is_whole && is_jpeg ? why_not_whole(bytes) : std::string();
 }
 
 }  // namespace quorum

@@ -23,14 +23,35 @@ Lens resized(Lens lens, ImageSize size) {
   return lens;
 }
 
+/// Where the principal point lies: (1, 1) is the middle, (0, 0) the corner at the top left.
+Eigen::Vector2d principal_place(const Lens& lens) {
+  return 2.0 * (lens.principal.array() + 0.5) / Eigen::Array2d(lens.width, lens.height);
+}
+
+/// True where the principal point lies nearer to the border than to the middle.
+bool is_off_center(const Lens& lens) { return (principal_place(lens).array() - 1.0).abs().maxCoeff() > 0.5; }
+
+/// The factor to the size of the picture whose middle the principal point is, where it is a half, a quarter, an eighth
+/// or twice, four or eight times as large; else 1.
+double factor_of_middle(const Lens& lens) {
+  constexpr double kOff = 0.1;  // as far as lenses have it from the middle
+  const Eigen::Vector2d place = principal_place(lens);
+  for (const double factor : {0.125, 0.25, 0.5, 2.0, 4.0, 8.0})
+    if ((place.array() / factor - 1.0).abs().maxCoeff() < kOff) return factor;
+  return 1.0;
+}
+
 }  // namespace
 
-std::string absent_note(const std::vector<std::string>& names, std::size_t count) {
+std::string names_in_short(const std::vector<std::string>& names) {
   constexpr std::size_t kTold = 5;
   const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kTold));
-  return fmt::format("{} of {} photographs {} not there and left out: {}{}", names.size(), count,
-                     names.size() == 1 ? "is" : "are", fmt::join(names.begin(), end, ", "),
-                     names.size() > kTold ? " …" : "");
+  return fmt::format("{}{}", fmt::join(names.begin(), end, ", "), names.size() > kTold ? " …" : "");
+}
+
+std::string absent_note(const std::vector<std::string>& names, std::size_t count) {
+  return fmt::format("{} of {} photographs {} not there and left out: {}", names.size(), count,
+                     names.size() == 1 ? "is" : "are", names_in_short(names));
 }
 
 std::string alpha_note(std::size_t count) {
@@ -54,6 +75,11 @@ Expected<int> ViewList::add(const std::string& image_name, const std::filesystem
   if (lens.width == 0 && lens.height == 0) {
     lens.width = size.width;
     lens.height = size.height;
+    if (const double other = factor_of_middle(lens); other != 1.0)
+      return refuse(
+          fmt::format("its principal point is the middle of a picture of about {:.0f} x {:.0f}, and {} is {} x "
+                      "{}; give photographs of that size, or scale focal length and principal point",
+                      other * size.width, other * size.height, image_path.string(), size.width, size.height));
   }
   if (!photographs_.insert(image_path.lexically_normal()).second)
     return refuse(fmt::format("{} is the photograph of another image, too; leave one of the two", image_path.string()));
@@ -84,7 +110,11 @@ Expected<int> ViewList::add(const std::string& image_name, const std::filesystem
   view.camera.intrinsics << lens.focal.x(), 0, lens.principal.x(), 0, lens.focal.y(), lens.principal.y(), 0, 0, 1;
   view.width = lens.width;
   view.height = lens.height;
-  if (const char* defect = camera_defect(view.camera); defect != nullptr) return refuse(defect);
+  if (const char* defect = camera_defect(view.camera); defect != nullptr)
+    return refuse(fmt::format("{}; {}", defect, kCameraRemedy));
+  if (const std::string absurd = absurd_value(view.camera, lens.width, lens.height); !absurd.empty())
+    return refuse(fmt::format("{}; {}", absurd, kCameraRemedy));
+  if (is_off_center(lens)) off_center_.push_back(image_name);
   if (!lens.is_pinhole()) {
     const auto picture = pinhole_picture(lens);
     if (!picture) return refuse("its lens can't be undistorted; check its coefficients");
@@ -121,6 +151,11 @@ Expected<Scene> ViewList::finish() {
                                       scaled_count_, factors));
   }
   if (alpha_count_ > 0) scene.notes.push_back(alpha_note(alpha_count_));
+  if (!off_center_.empty())
+    scene.notes.push_back(
+        fmt::format("{} photographs have their principal point (cx, cy) nearer to the border than to the middle, as "
+                    "cropped ones alone do: {}",
+                    off_center_.size(), names_in_short(off_center_)));
   return scene;
 }
 

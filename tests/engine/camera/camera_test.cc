@@ -1,5 +1,6 @@
 #include "engine/camera/camera.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -127,6 +128,34 @@ TEST(CameraDefect, NamesWhatIsWrongWithRAndT) {
   Camera far = tilted_camera();
   far.translation.y() = std::numeric_limits<double>::infinity();
   EXPECT_EQ(defect_of(far), "a camera value is not finite");
+}
+
+TEST(AbsurdValue, IsNoneOfACameraThatPeopleHave) {
+  Camera camera = tilted_camera();
+  EXPECT_EQ(absurd_value(camera, 640, 480), "");
+  camera.intrinsics(0, 2) = -20000;
+  EXPECT_EQ(absurd_value(camera, 640, 480), "") << "cropped from a large picture";
+  camera.intrinsics(0, 0) = 1.6e6;
+  camera.intrinsics(1, 1) = 1.6e6;
+  EXPECT_EQ(absurd_value(camera, 640, 480), "") << "a satellite's";
+  camera.translation = {6.4e12, 0, 0};
+  EXPECT_EQ(absurd_value(camera, 640, 480), "") << "the earth's radius in micrometers";
+}
+
+TEST(AbsurdValue, IsNamedWithItsNumbers) {
+  const auto with = [](auto change) {
+    Camera camera = tilted_camera();
+    change(camera);
+    return absurd_value(camera, 640, 480);
+  };
+  for (const double focal : {1e30, 1e-30, 0.8, 35.0})
+    EXPECT_EQ(with([focal](Camera& camera) { camera.intrinsics(0, 0) = camera.intrinsics(1, 1) = focal; }),
+              fmt::format("its focal length {:.6g} is none of a picture of 640 x 480, in pixels", focal));
+  EXPECT_EQ(with([](Camera& camera) { camera.intrinsics(1, 1) = 70; }),
+            "its focal lengths 1520.4 and 70 are those of no camera");
+  EXPECT_EQ(with([](Camera& camera) { camera.intrinsics(1, 2) = 1e5; }),
+            "its principal point (302.32, 100000) is far outside of a picture of 640 x 480");
+  EXPECT_TRUE(with([](Camera& camera) { camera.translation.z() = 1e30; }).ends_with("is beyond all units"));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "engine/io/colmap.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -77,6 +78,7 @@ TEST_F(Colmap, PointsFallOnTheirObservationsWithEveryCameraModel) {
     const Reprojection found = reproject(model, *scene);
     EXPECT_GT(found.count, 150U) << kind.name;
     EXPECT_LT(found.largest, 1e-6) << kind.name;
+    RecordProperty(std::string(kind.name) + "_largest_px", fmt::format("{:.1e}", found.largest));
   }
 }
 
@@ -403,7 +405,21 @@ TEST_F(Colmap, CamerasThatAreNoneAreRefused) {
   model = good;
   model.images[1].translation.y() = std::nan("");
   write(model);
-  expect_bad_input(read(), {"b.png", "not finite"});
+  expect_bad_input(read(), {"b.png", "not finite", "correct it, or leave the view out"});
+}
+
+TEST_F(Colmap, ValuesBeyondAllSenseAreRefusedWithTheImageAndTheRemedy) {
+  const ColmapModel good = make_colmap_model("PINHOLE");
+  const auto refuse = [&](auto change, std::string_view what) {
+    ColmapModel model = good;
+    change(model);
+    write(model);
+    expect_bad_input(read(), {"sparse", what, "correct it, or leave the view out"});
+  };
+  for (const double focal : {1e30, 1e-30})
+    refuse([focal](ColmapModel& model) { model.cameras[0].parameters[0] = focal; }, "\"a.png\": its focal length");
+  refuse([](ColmapModel& model) { model.cameras[0].parameters[2] = -1e7; }, "\"a.png\": its principal point");
+  refuse([](ColmapModel& model) { model.images[1].translation.x() = 1e30; }, "\"b.png\": its position");
 }
 
 TEST_F(Colmap, ModelsWithFewViewsAreRefused) {
@@ -435,6 +451,8 @@ TEST(ColmapData, SparsePointsOfRealModelsFallOnTheirObservations) {
     EXPECT_GT(found.count, set.least_observations) << set.folder;
     EXPECT_LT(found.mean_distance, set.mean_distance) << set.folder;
     EXPECT_LT(found.mean.norm(), 0.05) << set.folder << ": half a pixel would show here";
+    RecordProperty(std::string(set.folder) + "_mean_px",
+                   fmt::format("{:.4f} of {}", found.mean_distance, found.count));
   }
 }
 

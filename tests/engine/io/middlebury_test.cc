@@ -118,7 +118,12 @@ TEST_F(Middlebury, MalformedViewIsNamedWithFileAndLine) {
   expect_bad_input(read_par(with_second("b.png 100 0 20 0 100 15 0 0 0 1 0 0 0 1 0 0 0 1 0 0 5")),
                    {"tiny_par.txt:3: K is singular"});
   expect_bad_input(read_par(with_second("b.png 100 0 20 0 100 15 0 0 1 1 0 0 0 1 0 0 0 1 0 0 nan")),
-                   {"tiny_par.txt:3: a camera value is not finite"});
+                   {"tiny_par.txt:3: a camera value is not finite", "correct it, or leave the view out"});
+  const auto with_third = [&](const std::string& line) { return with_second(line) + "c.png" + kCamera + "\n"; };
+  expect_bad_input(read_par(with_third("b.png 1e30 0 20 0 1e30 15 0 0 1 1 0 0 0 1 0 0 0 1 0 0 5")),
+                   {"tiny_par.txt:3: its focal length 1e+30", "correct it, or leave the view out"});
+  expect_bad_input(read_par(with_third("b.png 100 0 20 0 100 15 0 0 1 1 0 0 0 1 0 0 0 1 0 0 1e30")),
+                   {"tiny_par.txt:3: its position (0 0 -1e+30)"});
   expect_bad_input(read_par("a.png x 0 20 0 100 15 0 0 1 1 0 0 0 1 0 0 0 1 0 0 5\n"), {"tiny_par.txt:1: k11"});
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/io/colmap.h"
 #include "engine/io/file.h"
 #include "engine/io/image_file.h"
@@ -105,6 +107,34 @@ TEST_F(SceneFolder, BundlerCamerasLookAlongTheirNegativeAxis) {
   ASSERT_EQ(other->points.size(), 3U);
   EXPECT_EQ(other->points[0].views, (std::vector<int>{0, 1, 3}));
   EXPECT_EQ(other->points[1].views, (std::vector<int>{2}));
+}
+
+TEST_F(SceneFolder, CamerasOfPicturesOfAnotherSizeAreRefusedWhereNoFileTellsIt) {
+  const View& view = scene_.views[1];
+  for (const int factor : {2, 4}) {
+    const ColorImage larger(factor * view.width, factor * view.height, make_rgb(1, 2, 3));
+    ASSERT_TRUE(write_png(path("mvsnet/images/00000001.png"), larger));
+    expect_bad_input(read("mvsnet"), {"00000001.png", "its principal point is the middle of a picture of about",
+                                      "give photographs of that size"});
+  }
+}
+
+TEST_F(SceneFolder, AMissingEndOfAJpegIsNoted) {
+  fs::remove(path("bundler/images/a.png"));
+  change("bundler/list.txt", "a.png", "a.jpg");
+  const View& view = scene_.views[0];
+  const std::string whole = encode_jpeg(ColorImage(view.width, view.height, make_rgb(1, 2, 3)), 90).value();
+  write_text(path("bundler/images/a.jpg"), whole.substr(0, whole.size() - 2));
+  const auto scene = read("bundler");
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(std::ranges::count_if(scene->notes,
+                                  [](const std::string& note) {
+                                    return note.starts_with("1 photographs lack the marker of a JPEG file's end") &&
+                                           note.ends_with("a.jpg");
+                                  }),
+            1);
+  write_text(path("bundler/images/a.jpg"), whole.substr(0, whole.size() - 30));
+  expect_bad_input(read("bundler"), {"a.jpg", "ends too early"});
 }
 
 TEST_F(SceneFolder, PairsAndDepthsOfMvsnetAreHonored) {

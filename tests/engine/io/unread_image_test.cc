@@ -1,8 +1,12 @@
 #include "engine/io/unread_image.h"
 
+#include <algorithm>
+#include <random>
+
 #include "engine/io/file.h"
 #include "engine/io/image_file.h"
 #include "engine/io/image_size.h"
+#include "engine/io/jpeg_flaw.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/test_support.h"
 
@@ -25,12 +29,63 @@ TEST(UnreadImage, AJpegThatWasCutOffIsRefusedNotFilledWithGray) {
   EXPECT_TRUE(read_image(path));
   write_text(path, whole + std::string(100, '\0'));
   EXPECT_TRUE(read_image(path)) << "some cameras write more behind the picture";
-  for (const std::size_t bytes : {whole.size() - 2, whole.size() * 3 / 4}) {
+  for (const std::size_t bytes : {whole.size() - 12, whole.size() * 3 / 4}) {
     write_text(path, whole.substr(0, bytes));
     expect_bad_input(read_image(path), {"a.jpg", "ends too early", "copy it again"});
+    expect_bad_input(is_jpeg_without_end(path), {"a.jpg", "ends too early"});
   }
   write_text(path, whole.substr(0, whole.size() * 3 / 4) + std::string(whole.size() / 4, '\0'));
   expect_bad_input(read_image(path), {"a.jpg", "ends too early"});
+}
+
+TEST(UnreadImage, AJpegThatLacksTheMarkerOfItsEndAloneIsTaken) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.jpg";
+  const std::string whole = encode_jpeg(gradient(), 90).value();
+  write_text(path, whole);
+  const ColorImage expected = read_image(path).value();
+  EXPECT_FALSE(is_jpeg_without_end(path).value());
+  write_text(path, whole.substr(0, whole.size() - 2));
+  const auto image = read_image(path);
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(*image, expected);
+  EXPECT_TRUE(is_jpeg_without_end(path).value());
+  EXPECT_FALSE(is_jpeg_without_end(folder.path() / "none.jpg").value());
+}
+
+TEST(UnreadImage, DamageWithinAJpegIsToldWithItsRow) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.jpg";
+  std::mt19937 random(3);
+  ColorImage photograph(640, 480);
+  for (Rgba& pixel : photograph.values) pixel = make_rgb(random() % 256, random() % 256, random() % 256);
+  const std::string whole = encode_jpeg(photograph, 90).value();
+  for (const double place : {0.25, 0.5, 0.75}) {
+    std::string damaged = whole;
+    const auto at = static_cast<std::size_t>(place * static_cast<double>(whole.size()));
+    for (std::size_t i = at; i < at + 64; ++i) damaged[i] = static_cast<char>(random());
+    write_text(path, damaged);
+    expect_bad_input(read_image(path), {"a.jpg", "is damaged within the picture", "copy it again"});
+    const JpegFlaw flaw = find_jpeg_flaw(damaged);
+    EXPECT_EQ(flaw.kind, JpegFlaw::Kind::kDamaged);
+    EXPECT_EQ(flaw.height, 480);
+    EXPECT_GE(flaw.row, 480 * place - 16);
+  }
+  std::string hole = whole;  // as file systems leave it
+  std::fill_n(hole.begin() + static_cast<std::ptrdiff_t>(hole.size() / 2), 4096, '\0');
+  write_text(path, hole);
+  expect_bad_input(read_image(path), {"is damaged"});
+}
+
+TEST(UnreadImage, WhatCamerasWriteBesideThePictureIsNoDamage) {
+  const std::string whole = encode_jpeg(gradient(), 90).value();
+  EXPECT_EQ(find_jpeg_flaw(whole).kind, JpegFlaw::Kind::kNone);
+  const std::string padded = whole.substr(0, whole.size() - 2) + std::string(100, '\0') + "\xff\xd9";
+  EXPECT_EQ(find_jpeg_flaw(padded).kind, JpegFlaw::Kind::kNone) << "zeros before the end";
+  EXPECT_EQ(find_jpeg_flaw(whole + "a film").kind, JpegFlaw::Kind::kNone);
+  EXPECT_EQ(find_jpeg_flaw("no JPEG file").kind, JpegFlaw::Kind::kNone);
+  EXPECT_EQ(find_jpeg_flaw(whole.substr(0, 100)).kind, JpegFlaw::Kind::kNone) << "decoders fail";
+  EXPECT_EQ(find_jpeg_flaw("").kind, JpegFlaw::Kind::kNone);
 }
 
 TEST(UnreadImage, AThumbnailBeforeThePictureIsNotItsEnd) {
