@@ -107,9 +107,8 @@ void weigh_down_what_is_seen(std::vector<SeenPoint>& points, const std::vector<S
   }
 }
 
-}  // namespace
-
-std::vector<RayPoint> sample_rays(const View& view, const Bounds& bounds) {
+/// sample_rays, of the given share of each ray's span around its middle.
+std::vector<RayPoint> sample_around_middle(const View& view, const Bounds& bounds, double share) {
   constexpr int kRays = 8;  // along each side of the image
   constexpr int kDepths = 8;
   std::vector<RayPoint> points;
@@ -122,12 +121,19 @@ std::vector<RayPoint> sample_rays(const View& view, const Bounds& bounds) {
     if (view.far_depth > 0) span = {std::max(span.enter, view.near_depth), std::min(span.leave, view.far_depth)};
     if (!(span.enter < span.leave) || !std::isfinite(span.leave)) continue;
     for (int k = 0; k < kDepths; ++k) {
-      const double depth = span.enter + (span.leave - span.enter) * (k + 0.5) / kDepths;
+      const double place = 0.5 + share * ((k + 0.5) / kDepths - 0.5);
+      const double depth = span.enter + (span.leave - span.enter) * place;
       const Eigen::Vector3d position = center + depth * ray;
       points.push_back({position, -ray.normalized(), pixels_per_unit(view.camera, position)});
     }
   }
   return points;
+}
+
+}  // namespace
+
+std::vector<RayPoint> sample_rays(const View& view, const Bounds& bounds) {
+  return sample_around_middle(view, bounds, 1.0);
 }
 
 double least_parallax_deg(const Camera& camera) {
@@ -237,7 +243,8 @@ std::vector<int> select_by_parallax(const Scene& scene, int reference, int count
 }
 
 double parallax_score(const Scene& scene, int reference, const std::vector<int>& neighbors, double max_angle_deg) {
-  const auto points = sample_rays(view_at(scene, reference), scene.bounds);
+  constexpr double kShare = 0.5;
+  const auto points = sample_around_middle(view_at(scene, reference), scene.bounds, kShare);
   const double least_deg = least_parallax_deg(view_at(scene, reference).camera);
   std::vector<Candidate> taken;
   double sum = 0.0;

@@ -57,7 +57,8 @@ constexpr std::size_t kManyViews = 1000;
 constexpr std::size_t kCandidates = 64;
 std::vector<int> select_by_parallax(const Scene& scene, int reference, int count, double max_angle_deg);
 
-/// The sum of the scores that select_by_parallax would have added up had it taken these neighbors, in this order.
+/// The sum of the scores that select_by_parallax would have added up had it taken these neighbors, in this order, on
+/// points along the middle half of each ray: near the cameras of a large box any baseline looks wide.
 double parallax_score(const Scene& scene, int reference, const std::vector<int>& neighbors, double max_angle_deg);
 
 }  // namespace quorum

@@ -38,12 +38,13 @@ inline Rgba wave_color(const Eigen::Vector3d& point) {
   return make_rgb(level(0.0), level(1.1), level(2.7));
 }
 
-inline ColorImage image_of(const View& view, const Surface& surface) {
+/// fineness: of the texture; 2 halves its waves.
+inline ColorImage image_of(const View& view, const Surface& surface, double fineness = 1.0) {
   const Eigen::Vector3d origin = view.camera.center();
   ColorImage image(view.width, view.height);
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x)
-      image.at(x, y) = wave_color(surface(origin, view.camera.unproject(x, y, 1.0) - origin));
+      image.at(x, y) = wave_color(fineness * surface(origin, view.camera.unproject(x, y, 1.0) - origin));
   return image;
 }
 
