@@ -215,6 +215,20 @@ Experiment weights() {
   return experiment;
 }
 
+Experiment view_rule() {
+  Experiment experiment{"views", "Neighbors by the angle between optical axes (4.1), or by parallax", {}, {}};
+  for (const char* scene : {"templeSparseRing", "dinoSparseRing", "dragonRing", "synthetic16"}) {
+    for (const auto& [label, rule] : {std::pair{"angle", ViewRule::kAngle}, {"parallax", ViewRule::kParallax}}) {
+      RunSettings run = default_run(scene, label);
+      run.options.views.rule = rule;
+      experiment.runs.push_back(run);
+    }
+  }
+  experiment.figures.push_back(
+      rows_of_pictures("views-temple", {0, 1}, {Picture::kDepth, Picture::kMesh}, {"angle", "parallax"}));
+  return experiment;
+}
+
 Experiment defaults() {
   Experiment experiment{"defaults", "The program's defaults beside the paper's settings", {}, {}};
   for (const char* scene :
@@ -268,7 +282,7 @@ RunOptions paper_options(const std::string& scene) {
 const Catalog& paper_catalog() {
   static const Catalog kCatalog = {paper_scenes(),
                                    {density(), window_size(), threshold(), neighbors(), texture(), silhouettes(),
-                                    steps(), window_model(), weights(), defaults()}};
+                                    steps(), window_model(), weights(), view_rule(), defaults()}};
   return kCatalog;
 }
 

@@ -73,7 +73,8 @@ class DepthMapSums {
 }  // namespace
 
 Expected<DepthMeasures> measure_depth_maps(const OpenScene& scene, const RunOptions& options,
-                                           const Workspace& workspace, const RunReport& report) {
+                                           const Workspace& workspace, const RunReport& report,
+                                           const Progress& progress) {
   DepthMeasures measures;
   for (const ViewReport& view : report.views) {
     ++measures.views;
@@ -84,6 +85,7 @@ Expected<DepthMeasures> measure_depth_maps(const OpenScene& scene, const RunOpti
   ImageStore images(scene.scene, kCacheBytes, scene.source->background_level);
   DepthMapSums sums;
   for (int index = 0; index < static_cast<int>(scene.scene.views.size()); ++index) {
+    if (progress.stop_requested()) return std::unexpected(stopped());
     const View& view = scene.scene.views[static_cast<std::size_t>(index)];
     if (!workspace.has_depth_map(view.name)) continue;
     QUORUM_ASSIGN(const auto map, workspace.load_depth_map(view.name, view.width, view.height));

@@ -35,9 +35,11 @@ struct MeshScore {
   std::optional<Evaluation> evaluation = {};  ///< where the truth is known and the mesh is not empty
 };
 
-/// Measures the depth maps in the workspace. report: of the run that made them. Fails as reading them does.
+/// Measures the depth maps in the workspace. report: of the run that made them. Fails as reading them does, and
+/// (kStopped) before the next view if progress asks for it.
 Expected<DepthMeasures> measure_depth_maps(const OpenScene& scene, const RunOptions& options,
-                                           const Workspace& workspace, const RunReport& report);
+                                           const Workspace& workspace, const RunReport& report,
+                                           const Progress& progress);
 
 /// Compares the mesh with the scene's truth. Fails as evaluate() does.
 Expected<MeshScore> score_mesh(const OpenScene& scene, const Mesh& mesh);

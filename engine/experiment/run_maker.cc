@@ -111,7 +111,7 @@ Expected<const OpenScene*> RunMaker::open(const std::string& scene) {
   const ExperimentScene& source = find_scene(scenes_, scene);
   if (!open_ || open_->source != &source) {
     open_.reset();
-    QUORUM_ASSIGN(auto opened, shelf_.open(source));
+    QUORUM_ASSIGN(auto opened, shelf_.open(source, progress_));
     open_ = std::make_unique<OpenScene>(std::move(opened));
   }
   return open_.get();
@@ -155,7 +155,9 @@ Expected<void> RunMaker::make(const OpenScene& scene, const RunSettings& setting
   record.voxel_size = run.report.voxel_size;
   record.min_confidence = run.report.min_confidence;
   QUORUM_ASSIGN(const Mesh mesh, read_ply(workspace.mesh_path(), scene.scene.offset));
+  if (progress_.stop_requested()) return std::unexpected(stopped());
   QUORUM_ASSIGN(record.mesh, score_mesh(scene, mesh));
+  if (progress_.stop_requested()) return std::unexpected(stopped());
   const std::filesystem::path pictures = folder_ / "runs" / run_id(record);
   QUORUM_TRY(make_folder(pictures));
   return write_pictures(scene, options, workspace, mesh, pictures);
@@ -181,7 +183,7 @@ Expected<void> RunMaker::provide_depth_maps(Run run, const OpenScene& scene, Run
   QUORUM_TRY(reconstruct(run, {.certainties = false, .mesh = false}));
   record.wall_seconds = run.report.wall_seconds;
   record.cpu_seconds = record.depth_cpu_seconds = run.report.cpu_seconds;
-  QUORUM_ASSIGN(record.depth, measure_depth_maps(scene, run.options, run.workspace, run.report));
+  QUORUM_ASSIGN(record.depth, measure_depth_maps(scene, run.options, run.workspace, run.report, run.progress));
   RunRecord kept = record;
   kept.identity = identity;
   return write_file(note, record_json(kept));

@@ -25,12 +25,12 @@ ExperimentScene synthetic(std::string name, const TempleOptions& options) {
 }
 
 /// Renders a synthetic scene into folder unless it is there.
-Expected<void> provide(const std::filesystem::path& folder, const ExperimentScene& scene) {
+Expected<void> provide(const std::filesystem::path& folder, const ExperimentScene& scene, const Progress& progress) {
   const std::filesystem::path note = folder / "description.txt";  // written last
   if (const auto found = read_file(note); found && *found == description(scene)) return {};
   std::error_code ignored;
   std::filesystem::remove(note, ignored);
-  QUORUM_TRY(synthesize_temple(folder, *scene.temple));
+  QUORUM_TRY(synthesize_temple(folder, *scene.temple, progress));
   return write_file(note, description(scene));
 }
 
@@ -79,9 +79,9 @@ bool SceneShelf::has(const ExperimentScene& scene) const {
   return scene.temple || (!data_.empty() && std::filesystem::is_directory(data_ / scene.name, ignored));
 }
 
-Expected<OpenScene> SceneShelf::open(const ExperimentScene& scene) const {
+Expected<OpenScene> SceneShelf::open(const ExperimentScene& scene, const Progress& progress) const {
   const std::filesystem::path folder = (scene.temple ? synthetic_ : data_) / scene.name;
-  if (scene.temple) QUORUM_TRY(provide(folder, scene));
+  if (scene.temple) QUORUM_TRY(provide(folder, scene, progress));
   QUORUM_ASSIGN(auto read, read_middlebury(folder, std::nullopt, {}));
   OpenScene open{&scene, std::move(read), std::nullopt};
   std::error_code ignored;

@@ -10,6 +10,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/mesh.h"
+#include "engine/pipeline/progress.h"
 #include "engine/scene/scene.h"
 #include "engine/synthetic/temple.h"
 
@@ -50,7 +51,7 @@ class SceneShelf {
   [[nodiscard]] bool has(const ExperimentScene& scene) const;
   /// Reads the scene, and renders it first if it is synthetic and not there. Fails as read_middlebury, read_ply and
   /// synthesize_temple do.
-  [[nodiscard]] Expected<OpenScene> open(const ExperimentScene& scene) const;
+  [[nodiscard]] Expected<OpenScene> open(const ExperimentScene& scene, const Progress& progress) const;
 
  private:
   std::filesystem::path data_;  ///< empty = no data sets

@@ -7,6 +7,7 @@
 #include "engine/io/middlebury.h"
 #include "engine/io/ply.h"
 #include "engine/io/text.h"
+#include "engine/pipeline/run.h"
 
 namespace quorum {
 namespace {
@@ -52,12 +53,13 @@ class TempleFolder {
 
 }  // namespace
 
-Expected<void> synthesize_temple(const fs::path& folder, const TempleOptions& options) {
+Expected<void> synthesize_temple(const fs::path& folder, const TempleOptions& options, const Progress& progress) {
   constexpr double kSurfaceEdge = 0.001;  // of the triangles of gt.ply, meters
   QUORUM_TRY(options.check());
   QUORUM_ASSIGN(const TempleFolder output, TempleFolder::open(folder));
   const Scene scene = make_temple_scene(options);
   for (int view = 0; view < static_cast<int>(scene.views.size()); ++view) {
+    if (progress.stop_requested()) return std::unexpected(stopped());
     QUORUM_ASSIGN(const auto picture, encode_png(render_temple(scene, view, options)));
     QUORUM_TRY(output.write(scene.views[static_cast<std::size_t>(view)].image_path.string(), picture));
   }

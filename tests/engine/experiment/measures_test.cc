@@ -32,7 +32,7 @@ DepthMeasures measure(const DepthMap& map) {
   EXPECT_TRUE(workspace.save_depth_map("plane", map));
   RunReport report;
   report.views.push_back({"plane", {}, 1200, 5000, 1100});
-  return measure_depth_maps(scene, {}, workspace, report).value();
+  return measure_depth_maps(scene, {}, workspace, report, Progress()).value();
 }
 
 TEST(MeasureDepthMaps, AnExactPlaneIsSmoothAndRight) {

@@ -1,5 +1,7 @@
 #include "engine/experiment/run_maker.h"
 
+#include <atomic>
+
 #include "engine/io/file.h"
 #include "tests/engine/experiment/tiny_catalog.h"
 
@@ -88,6 +90,36 @@ TEST_F(RunMakerTest, BrokenRecordsAreMadeAgain) {
   RunMaker runs = maker();
   ASSERT_TRUE(runs.run(tiny_run("first")));
   EXPECT_TRUE(runs.was_made());
+}
+
+/// Asks to stop from some question on.
+class StoppingProgress : public Progress {
+ public:
+  explicit StoppingProgress(int asked_before) : asked_before_(asked_before) {}
+  [[nodiscard]] bool stop_requested() const override { return ++asked_ > asked_before_; }
+  [[nodiscard]] int asked() const { return asked_; }
+
+ private:
+  int asked_before_;
+  mutable std::atomic<int> asked_ = 0;
+};
+
+TEST_F(RunMakerTest, ARunEndsBeforeTheNextViewOfWhateverStage) {
+  const auto run = [&](const std::string& name, Progress& progress) {
+    const auto folder = folder_.path() / name;
+    return RunMaker(folder, scenes_, SceneShelf({}, folder / "scenes"), backend_, progress).run(tiny_run("whole"));
+  };
+  StoppingProgress never(1 << 30);
+  ASSERT_TRUE(run("never", never));
+  constexpr int kStages = 4;  // rendered, swept, measured, fused
+  EXPECT_GE(never.asked(), kStages * 8) << "once for each of 8 views";
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    StoppingProgress wish(never.asked() * quarter / 4);
+    const auto stopped = run(std::to_string(quarter), wish);
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().kind, ErrorKind::kStopped) << stopped.error().message;
+    EXPECT_EQ(wish.asked(), never.asked() * quarter / 4 + 1) << "went on after it was told";
+  }
 }
 
 TEST_F(RunMakerTest, ScenesWithTheSameCamerasShareNothing) {
