@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <initializer_list>
 #include <iterator>
@@ -18,6 +17,8 @@
 
 #include "engine/io/colmap.h"
 #include "engine/io/file.h"
+#include "engine/io/unread_image.h"
+#include "engine/io/view_names.h"
 
 extern char** environ;
 
@@ -32,37 +33,67 @@ struct Step {
   std::string command;
 };
 
+Error stopped_between_steps() { return {ErrorKind::kStopped, "stopped as asked; finished steps are kept"}; }
+
 bool is_photograph(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return std::ranges::count(std::initializer_list<std::string>{".jpg", ".jpeg", ".png", ".tif", ".tiff"}, extension) >
-         0;
+  return std::ranges::count(std::initializer_list<std::string>{".jpg", ".jpeg", ".png", ".tif", ".tiff"},
+                            folded(path.extension().string())) > 0;
 }
 
-/// A line per photograph: what tells it from another one. Sorted. Links to folders are not followed, so none loops.
-Expected<std::vector<std::string>> describe(const fs::path& photos) {
-  std::vector<std::string> lines;
+/// The photographs that colmap would take, sorted. Links to folders are not followed, so none loops.
+Expected<std::vector<fs::path>> list_photographs(const fs::path& photos, Progress& progress) {
+  std::vector<fs::path> found;
+  std::size_t unread = 0;  // what phones write, and colmap does not read
   std::error_code code;
   for (fs::recursive_directory_iterator entry(photos, code); !code && entry != fs::recursive_directory_iterator();
        entry.increment(code)) {
     std::error_code ignored;
-    if (!is_photograph(entry->path()) || !entry->is_regular_file(ignored)) continue;
-    const auto size = entry->file_size(ignored);
-    const auto time = entry->last_write_time(ignored);
-    lines.push_back(fmt::format("{} {} {}", entry->path().lexically_relative(photos).string(), size,
-                                time.time_since_epoch().count()));
+    if (!entry->is_regular_file(ignored)) continue;
+    if (is_photograph(entry->path())) found.push_back(entry->path());
+    const std::string extension = folded(entry->path().extension().string());
+    unread += extension == ".heic" || extension == ".heif" || extension == ".avif" ? 1 : 0;
   }
   if (code)
     return failure(ErrorKind::kInput, fmt::format("{}: cannot be listed: {}; check the path and the permissions",
                                                   photos.string(), code.message()));
-  if (lines.size() < 3)
-    return failure(ErrorKind::kInput, fmt::format("{}: holds {} photographs (jpg, png, tif), expected 3 or more",
-                                                  photos.string(), lines.size()));
+  if (found.size() < 3)
+    return failure(
+        ErrorKind::kInput,
+        fmt::format("{}: holds {} photographs (jpg, png, tif), expected 3 or more{}", photos.string(), found.size(),
+                    unread > 0 ? fmt::format("; convert the {} of HEIC or AVIF, which colmap does not read, to JPEG "
+                                             "(heif-convert)",
+                                             unread)
+                               : ""));
+  if (unread > 0)
+    progress.note(fmt::format("{} photographs of HEIC or AVIF are left out, which colmap does not read", unread));
+  std::ranges::sort(found);
+  return found;
+}
+
+/// A line per photograph: what tells it from another one.
+std::vector<std::string> describe(const fs::path& photos, const std::vector<fs::path>& paths) {
+  std::vector<std::string> lines;
+  for (const fs::path& path : paths) {
+    std::error_code ignored;
+    const auto size = fs::file_size(path, ignored);
+    const auto time = fs::last_write_time(path, ignored);
+    lines.push_back(
+        fmt::format("{} {} {}", path.lexically_relative(photos).string(), size, time.time_since_epoch().count()));
+  }
   std::ranges::sort(lines);
   return lines;
 }
 
-Error stopped_between_steps() { return {ErrorKind::kStopped, "stopped as asked; finished steps are kept"}; }
+/// What is missing of a photograph colmap takes for a gray part of the scene, and writes so.
+Expected<void> check_photographs(const std::vector<fs::path>& paths, const Progress& progress) {
+  for (const fs::path& path : paths) {
+    if (progress.stop_requested()) return std::unexpected(stopped_between_steps());
+    QUORUM_ASSIGN(const auto bytes, read_file(path));
+    if (const std::string why = why_unread(path, bytes, true); !why.empty())
+      return failure(ErrorKind::kInput, fmt::format("{}: {}", path.string(), why));
+  }
+  return {};
+}
 
 /// Ends a process and those that it started: asked first, then at once.
 void end_group(pid_t process) {
@@ -207,7 +238,8 @@ Expected<void> run_colmap(const fs::path& photos, const fs::path& work, int max_
     return failure(ErrorKind::kInput, fmt::format("{}: lies in the folder of photographs, where colmap would take its "
                                                   "pictures for photographs; choose another output folder",
                                                   work.string()));
-  QUORUM_ASSIGN(const auto lines, describe(photos));
+  QUORUM_ASSIGN(const auto photographs, list_photographs(photos, progress));
+  const std::vector<std::string> lines = describe(photos, photographs);
   std::string input = fmt::format("size {}\n", max_image_size);
   for (const std::string& line : lines) input += line + "\n";
   QUORUM_TRY(make_folder(work));
@@ -225,6 +257,7 @@ Expected<void> run_colmap(const fs::path& photos, const fs::path& work, int max_
     stale = stale || !done_for || *done_for != input;
     if (stale) {
       fs::remove(note, ignored);
+      if (step.name == "features") QUORUM_TRY(check_photographs(photographs, progress));
       QUORUM_TRY(run_step(step, photos, work, max_image_size, progress));
     }
     if (step.name == "cameras") QUORUM_TRY(tell_registered(work, lines.size(), progress));

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "engine/io/colmap_model.h"
+#include "engine/io/image_file.h"
 #include "tests/support/colmap_scene.h"
 #include "tests/support/test_support.h"
 #include "tests/tools/tool_test.h"
@@ -82,6 +83,21 @@ TEST_F(Photos, FinishedStepsAreNotDoneAgain) {
   const ProgramResult again = quorum_program(arguments(false), with_colmap());
   EXPECT_EQ(calls(), before);
   EXPECT_TRUE(contains(again.err, "4 of 4 photographs registered")) << again.err;
+}
+
+TEST_F(Photos, ACutPhotographIsToldBeforeColmapBegins) {
+  write_colmap("FeatureExtraction.use_gpu", "FeatureMatching.use_gpu");
+  const std::string whole = encode_jpeg(ColorImage(64, 48, make_rgb(9, 8, 7)), 90).value();
+  write_text(scene() / "images/e.jpg", whole.substr(0, whole.size() - 20));
+  expect_failure(quorum_program(arguments(true), with_colmap()), 3, {"e.jpg", "ends too early", "copy it again"});
+  EXPECT_FALSE(contains(calls(), "feature_extractor")) << calls();
+}
+
+TEST_F(Photos, PhotographsOfPhonesAreMetWithTheWayToConvertThem) {
+  write_colmap("FeatureExtraction.use_gpu", "FeatureMatching.use_gpu");
+  for (const char* name : {"a", "b", "c", "d"})
+    fs::rename(scene() / "images" / (std::string(name) + ".png"), scene() / "images" / (std::string(name) + ".HEIC"));
+  expect_failure(quorum_program(arguments(true), with_colmap()), 3, {"holds 0 photographs", "heif-convert"});
 }
 
 TEST_F(Photos, ASignalEndsColmapToo) {
