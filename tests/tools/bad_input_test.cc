@@ -285,6 +285,24 @@ TEST_F(BadInput, ExperimentNamesWhatItKnowsAndWhatItMisses) {
       {"file/x"});
 }
 
+TEST_F(BadInput, CamerasOfOtherPhotographsAreToldAndTinyScenesAreNot) {
+  const auto notes = [&](int views, int width, double focal_factor) {
+    for (const auto& place : {scene(), result()}) std::filesystem::remove_all(place);
+    synthesize(views, width);
+    for (std::size_t line = 1; line <= static_cast<std::size_t>(views); ++line)
+      for (const std::size_t field : {1U, 5U}) {
+        std::istringstream text(par_lines()[line]);
+        const std::vector<std::string> fields{std::istream_iterator<std::string>(text), {}};
+        set_field(line, field, std::to_string(focal_factor * std::stod(fields[field])));
+      }
+    return quorum_program({"reconstruct", scene().string(), "-o", result().string(), "--device", "cpu"}).err;
+  };
+  const std::string doubt = "belong to these photographs";
+  EXPECT_TRUE(contains(notes(8, 200, 0.6), doubt));
+  EXPECT_FALSE(contains(notes(8, 200, 1.0), doubt));
+  EXPECT_FALSE(contains(notes(6, 96, 1.0), doubt)) << "5 % of so few pixels say nothing";
+}
+
 TEST_F(BadInput, EvaluateNamesTheFileThatIsMissingOrDamaged) {
   const std::string truth = (scene() / "gt.ply").string();
   expect_failure(quorum_program({"evaluate", below("none.ply").string(), truth}), 3, {"none.ply", "check the path"});
