@@ -91,6 +91,8 @@ class SfmFormatsTest : public testing::Test {
       }
     }
     EXPECT_LT(residual, 1e-7);
+    largest_residual_ = std::max(largest_residual_, residual);
+    RecordProperty("largest_px", fmt::format("{:.1e}", largest_residual_));
     if (!with_points) return;
     ASSERT_EQ(scene->points.size(), std::size_t{kPoints});
     for (const SparsePoint& point : scene->points) {
@@ -246,6 +248,7 @@ class SfmFormatsTest : public testing::Test {
   std::vector<Vector3d> points_;
   std::vector<Eigen::Matrix3d> rotations_;  ///< world to camera
   std::vector<Vector3d> centers_;
+  double largest_residual_ = 0.0;  ///< pixels, of all that the test has read
 };
 
 using SfmFormats = SfmFormatsTest;
