@@ -70,8 +70,9 @@ function(quorum_link target folder)
     endif()
   endforeach()
   foreach(name IN LISTS row_first)
-    if(TARGET quorum_${name})  # the shaders have none, nor has the host without Vulkan
-      target_link_libraries(${target} PUBLIC quorum_${name})
+    cmake_path(GET name FILENAME library)
+    if(TARGET quorum_${library})  # the shaders have none, nor has the host without Vulkan
+      target_link_libraries(${target} PUBLIC quorum_${library})
     endif()
   endforeach()
   foreach(package_row IN LISTS QUORUM_PACKAGES)

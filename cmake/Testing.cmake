@@ -48,10 +48,10 @@ endif()
 set(program_without_vulkan quorum)
 if(QUORUM_VULKAN)
   set(program_without_vulkan quorum_without_vulkan)
-  set(tools_that_differ tools/devices_command.cc tools/open_backend.cc)
-  set_source_files_properties(${tools_that_differ} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  add_executable(quorum_without_vulkan ${tools_that_differ}
-    "$<FILTER:$<TARGET_OBJECTS:quorum>,EXCLUDE,/(devices_command|open_backend)[.]cc>")
+  set(files_that_differ tools/devices_command.cc host/run/open_backend.cc)
+  set_source_files_properties(${files_that_differ} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  add_executable(quorum_without_vulkan ${files_that_differ}
+    "$<FILTER:$<TARGET_OBJECTS:quorum>;$<TARGET_OBJECTS:quorum_run>,EXCLUDE,/(devices_command|open_backend)[.]cc>")
   quorum_options(quorum_without_vulkan)
   target_link_libraries(quorum_without_vulkan
     PRIVATE quorum_engine CLI11::CLI11 nlohmann_json::nlohmann_json TBB::tbb)

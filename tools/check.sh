@@ -18,7 +18,8 @@ check_format() { sources -print0 | xargs -0 -P "$(nproc)" -n 60 clang-format-14 
 unit() {
   local name="$1" unit="build/check/$1.cc" log="build/check/$1.log" target flags clashing
   shift
-  target="quorum_${name#engine_}"
+  target="${name#engine_}"
+  target="quorum_${target#host_}"
   [[ "$name" != tools* ]] || target=quorum
   target="/${target%%-*}.dir/"
   printf '#include "%s"\n' "$@" >"$unit"
@@ -46,7 +47,7 @@ check_tidy() {
   mkdir -p build/check
   export -f unit
   export build
-  for folder in tools host engine/*; do echo "$folder"; done |
+  for folder in tools host host/run engine/*; do echo "$folder"; done |
     xargs -P "$(nproc)" -I{} bash -c 'files=({}/*.cc) && name={} && unit "${name//\//_}" "${files[@]}"'
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -47,11 +46,5 @@ int fail(std::string_view command, const Error& error);
 /// Fails (kUsage) if the output is one of the inputs, under this or another name. Empty inputs and absent files are
 /// none.
 Expected<void> check_not_input(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs);
-
-/// "; did you mean NAME?" of the name that is nearest to a word, as mistyped as a word may be; empty if none is near.
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
-
-/// What an exception tells that nothing closer to its cause has caught.
-Error error_of(const std::exception_ptr& exception);
 
 }  // namespace quorum

@@ -38,7 +38,7 @@ ConsoleProgress::ConsoleProgress(ProgressForm form, std::vector<StageWeight> exp
       signals_(form != ProgressForm::kText, terminal_),
       meter_(std::move(expected)) {}
 
-ConsoleProgress::~ConsoleProgress() { finish(); }
+ConsoleProgress::~ConsoleProgress() { ConsoleProgress::finish(); }
 
 void ConsoleProgress::stage(std::string_view name, int steps) {
   finish();

@@ -30,7 +30,7 @@ class ConsoleProgress : public Progress {
   void note(std::string_view text) override;
   [[nodiscard]] bool stop_requested() const override;
   /// Ends the last stage's line.
-  void finish();
+  void finish() override;
 
  private:
   /// A line, or an event, of where the run is. event: "stage" or "step".

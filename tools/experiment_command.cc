@@ -3,9 +3,9 @@
 
 #include "engine/experiment/experiment.h"
 #include "engine/experiment/run_experiments.h"
+#include "host/run/open_backend.h"
 #include "tools/add_options.h"
 #include "tools/console_progress.h"
-#include "tools/open_backend.h"
 
 namespace quorum {
 namespace {

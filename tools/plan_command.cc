@@ -6,8 +6,8 @@
 
 #include "engine/core/parse_number.h"
 #include "engine/pipeline/plan.h"
+#include "host/run/open_backend.h"
 #include "tools/messages.h"
-#include "tools/open_backend.h"
 #include "tools/run_pipeline.h"
 
 namespace quorum {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/did_you_mean.h"
+#include "engine/core/error_of.h"
 #include "engine/core/version.h"
 #include "engine/io/temporary_file.h"
 #include "tools/command.h"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/core/did_you_mean.h"
 #include "engine/evaluate/color_by_error.h"
 #include "engine/io/glb.h"
 #include "engine/io/image_file.h"

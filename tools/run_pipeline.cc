@@ -2,17 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "engine/core/memory.h"
-#include "engine/io/file.h"
-#include "engine/pipeline/fuse_shards.h"
-#include "engine/pipeline/provenance.h"
 #include "engine/pipeline/run_json.h"
-#include "engine/pipeline/workspace_lock.h"
-#include "engine/report/report.h"
+#include "host/run/open_backend.h"
 #include "tools/messages.h"
-#include "tools/open_backend.h"
 
 namespace quorum {
 
@@ -43,123 +35,19 @@ void RunArguments::add_restart(CLI::App& app) {
   app.add_flag("--restart", restart, "Make all anew, also what earlier runs made of the same photographs and options");
 }
 
-namespace {
-
-Expected<WorkspaceLock> take_lock(const Workspace& workspace, const std::string& command,
-                                  const std::optional<Shard>& shard) {
-  if (!shard) return WorkspaceLock::take(workspace.folder(), command);
-  QUORUM_TRY(make_folder(workspace.folder() / "shards"));
-  return WorkspaceLock::take_shard(workspace.folder(), command, *shard);
-}
-
-std::vector<StageWeight> expected_stages(const RunSteps& steps, bool is_shard) {
-  std::vector<StageWeight> expected = run_stage_weights();
-  std::erase_if(expected, [&](const StageWeight& stage) {
-    if (stage.name == "computing depth maps") return !steps.depth_maps;
-    if (stage.name == "confirming depths") return !steps.certainties || (steps.mesh && is_shard);
-    if (stage.name == "extracting the mesh") return !steps.mesh || is_shard;
-    return !steps.mesh || steps.joins;
-  });
-  return expected;
-}
-
-bool has_masks(const Run& run) {
-  return run.options.mask_below > 0 ||
-         std::ranges::any_of(run.scene.views, [](const View& view) { return !view.mask_path.empty(); });
-}
-
-/// Cameras that are not those of the photographs leave depths by chance, which do not agree, and a mesh of crumbs.
-void tell_doubts(Run& run) {
-  // With wrong focal lengths or poses 2 to 31 % of the pixels had depths, and the mesh 0.06 to 0.16 triangles for each
-  // depth of the view with most; with right ones 10 % and 1.3 and more. Tiny views tell neither: right ones of 96
-  // pixels had 5.5 % and 0.2.
-  constexpr double kFew = 0.06;
-  constexpr double kCrumbs = 0.2;
-  constexpr double kTiny = 128 * 96;
-  double swept = 0;
-  double valid = 0;
-  double most = 0;
-  for (const ViewReport& view : run.report.views) {
-    swept += static_cast<double>(view.swept_pixels);
-    valid += static_cast<double>(view.valid_pixels);
-    most = std::max(most, static_cast<double>(view.valid_pixels));
-  }
-  if (swept < kTiny * static_cast<double>(run.report.views.size())) return;
-  if (valid < kFew * swept)
-    run.progress.note(
-        fmt::format("only {:.1f} % of the pixels got a depth: check that the cameras belong to these photographs, take "
-                    "more of them, or say where the object is (--bounds, --masks)",
-                    100.0 * valid / swept));
-  else if (run.options.fusion.voxel_size == 0.0 && static_cast<double>(run.report.triangles) < kCrumbs * most)
-    run.progress.note(
-        "the depth maps hardly agree, and the mesh is made of crumbs: check that the cameras belong to these "
-        "photographs, or take more of them, closer together");
-}
-
-/// What would help, as far as the run shows it.
-void tell_advice(Run& run) {
-  tell_doubts(run);
-  const RunReport& report = run.report;
-  const std::uint64_t dropped = report.extracted_triangles - report.triangles;
-  if (!run.options.fusion.fill_holes && 10 * dropped > report.extracted_triangles)
-    run.progress.note(
-        fmt::format("{:.0f} % of the surface was dropped as uncertain or small; {} helps where it frays, "
-                    "--min-confidence keeps more",
-                    100.0 * static_cast<double>(dropped) / static_cast<double>(report.extracted_triangles),
-                    has_masks(run) ? "more photographs" : "a mask (--masks, --mask-below) or more photographs"));
-}
-
-void tell_summary(Run& run, const RunSteps& steps) {
-  const RunReport& report = run.report;
-  if (steps.mesh && !run.options.shard)
-    run.progress.note(fmt::format("{}: {} triangles, {} vertices, {} pieces, confidence {:.3g} and more",
-                                  run.workspace.mesh_path().string(), report.triangles, report.vertices, report.pieces,
-                                  report.min_confidence));
-  if (steps.mesh && !run.options.shard) tell_advice(run);
-  const std::uint64_t others = children_peak_memory_bytes();
-  run.progress.note(fmt::format("{}: {:.1f} s, {:.1f} CPU s, {} MiB at most{}", run.workspace.folder().string(),
-                                report.wall_seconds, report.cpu_seconds, peak_memory_bytes() >> 20,
-                                others > 0 ? fmt::format(", colmap {} MiB", others >> 20) : ""));
-}
-
-}  // namespace
-
 Expected<void> with_run(const RunArguments& arguments, const RunSteps& steps,
                         const std::function<Expected<void>(Run&)>& work) {
   QUORUM_TRY(arguments.options.check());
   const ThreadLimit limit(arguments.options.threads);
   ConsoleProgress progress(arguments.progress_form(), expected_stages(steps, arguments.options.shard.has_value()));
   QUORUM_ASSIGN(const Scene scene, read_scene(arguments.scene, arguments.options.files));
-  QUORUM_ASSIGN(const auto backend, open_backend(arguments.options));
-  QUORUM_ASSIGN(const Workspace workspace, Workspace::open(arguments.output));
-  RunOptions options = arguments.options;
-  QUORUM_ASSIGN(const WorkspaceLock lock, take_lock(workspace, arguments.command, options.shard));
-  if (arguments.takes_depth_options) QUORUM_TRY(take_depth_options(options, scene, workspace));
-  if (arguments.takes_part_options) QUORUM_TRY(take_part_options(options, workspace));
-  if (arguments.restart)
-    for (int view = 0; view < static_cast<int>(scene.views.size()); ++view)
-      if (!options.shard || options.shard->has(view))
-        workspace.remove_depth_map(scene.views[static_cast<std::size_t>(view)].name);
-  Run run{scene, options, *backend, workspace, progress};
-  for (const std::string& note : scene.notes) progress.note(note);
-  progress.note(fmt::format("{} views, on {}", scene.views.size(), backend->description()));
-  const auto done = work(run);
-  progress.finish();
-  if (done) tell_summary(run, steps);
-  return done;
+  return with_run(scene, arguments, progress, steps, work);
 }
 
 Expected<void> run_pipeline(const RunArguments& arguments, const RunSteps& steps) {
   return with_run(arguments, steps, [&](Run& run) -> Expected<void> {
-    QUORUM_TRY(reconstruct(run, steps));
-    if (steps.mesh && !run.options.shard && run.report.triangles == 0)
-      return failure(ErrorKind::kInput,
-                     fmt::format("{}: the mesh is empty: no surface was seen by enough views; check the cameras, "
-                                 "{}--bounds and --min-confidence",
-                                 run.workspace.mesh_path().string(), has_masks(run) ? "the masks, " : ""));
-    if (arguments.report) QUORUM_TRY(write_report(run.scene, run.workspace));
-    if (!arguments.json) return {};
-    write_result(run_json(run));
+    QUORUM_TRY(make_results(run, arguments, steps));
+    if (arguments.json) write_result(run_json(run));
     return {};
   });
 }

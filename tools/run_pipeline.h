@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "engine/pipeline/reconstruct.h"
+#include "host/run/open_run.h"
 #include "tools/add_options.h"
 #include "tools/console_progress.h"
 
@@ -14,18 +14,11 @@ inline const std::vector<RunStage> kAllStages = {RunStage::kScene,  RunStage::kD
                                                  RunStage::kFusion, RunStage::kClean, RunStage::kExtras,
                                                  RunStage::kFiles,  RunStage::kNone};
 
-struct RunArguments {
+struct RunArguments : RunRequest {
   std::filesystem::path scene;
-  std::filesystem::path output;
-  RunOptions options;
-  std::string command;  ///< whose name the lock of the workspace tells
   bool quiet = false;
   ProgressForm progress = ProgressForm::kText;
   bool json = false;
-  bool restart = false;
-  bool report = false;               ///< report.html at the end
-  bool takes_depth_options = false;  ///< from what lies in the workspace
-  bool takes_part_options = false;   ///< those of the volume, from what shards left there
 
   /// How progress is told; kNone if quiet.
   [[nodiscard]] ProgressForm progress_form() const { return quiet ? ProgressForm::kNone : progress; }
@@ -35,12 +28,12 @@ struct RunArguments {
   void add_restart(CLI::App& app);
 };
 
-/// Reads the scene, opens the device and the workspace, which it locks, and does the work on the run; options are
-/// checked before. steps: that the work takes, for the percentage that is told. Fails as these do.
+/// Reads the scene and does the work on its run (host/run/open_run.h), with progress on the console; options are
+/// checked before. Fails as these do.
 Expected<void> with_run(const RunArguments& arguments, const RunSteps& steps,
                         const std::function<Expected<void>(Run&)>& work);
 
-/// The whole run, or one step of it.
+/// The whole run, or one step of it; run.json on standard output if asked for.
 Expected<void> run_pipeline(const RunArguments& arguments, const RunSteps& steps = {});
 
 }  // namespace quorum

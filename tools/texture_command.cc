@@ -6,10 +6,10 @@
 #include "engine/io/ply.h"
 #include "engine/io/scene_folder.h"
 #include "engine/pipeline/texture_scene.h"
+#include "host/run/open_backend.h"
 #include "tools/add_options.h"
 #include "tools/console_progress.h"
 #include "tools/messages.h"
-#include "tools/open_backend.h"
 
 namespace quorum {
 namespace {

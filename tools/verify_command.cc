@@ -3,10 +3,10 @@
 
 #include "engine/conformance/conformance.h"
 #include "engine/io/scratch_folder.h"
+#include "host/run/open_backend.h"
 #include "tools/add_options.h"
 #include "tools/console_progress.h"
 #include "tools/messages.h"
-#include "tools/open_backend.h"
 
 namespace quorum {
 namespace {

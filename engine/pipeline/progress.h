@@ -18,6 +18,8 @@ class Progress {
   virtual void step() {}
   /// Something the user should know, one line.
   virtual void note(std::string_view /*text*/) {}
+  /// No more steps of the last stage will come.
+  virtual void finish() {}
   /// True if the run should end before its next view.
   [[nodiscard]] virtual bool stop_requested() const { return false; }
 };

@@ -1,4 +1,4 @@
-#include "tools/open_backend.h"
+#include "host/run/open_backend.h"
 
 #include <fmt/format.h>
 
