@@ -116,6 +116,19 @@ Expected<void> note_missing_ends(Scene& scene) {
   return {};
 }
 
+/// Masks, frame, bounds and depth ranges of a scene as a reader gives it. where: what messages call it.
+Expected<void> place_scene(Scene& scene, const SceneOptions& options, const std::optional<Bounds>& given,
+                           const std::string& where) {
+  if (!options.masks.empty()) QUORUM_TRY(find_masks(options.masks, scene.views));
+  enter_local_frame(scene);
+  if (given) scene.bounds = in_local_frame(*given, scene);
+  if (auto found = given ? Expected<void>() : find_extent(scene); !found)
+    return std::unexpected(found.error().within(where));
+  if (auto checked = check_bounds(scene); !checked) return std::unexpected(checked.error().within(where));
+  limit_depths(scene, given.has_value());
+  return given ? find_ranges_inside(scene) : Expected<void>();
+}
+
 /// The scene with masks, bounds and depth ranges, at the full size of its photographs.
 Expected<Scene> read_views(const fs::path& folder, const SceneOptions& options, const std::optional<Bounds>& given) {
   SceneFormat format = options.format;
@@ -128,16 +141,30 @@ Expected<Scene> read_views(const fs::path& folder, const SceneOptions& options, 
   if (format == SceneFormat::kMiddlebury) return read_middlebury(folder, given, options.masks, options.images);
 
   auto scene = read_format(format, folder, options);
-  if (!scene) return scene;
-  if (!options.masks.empty()) QUORUM_TRY(find_masks(options.masks, scene->views));
-  enter_local_frame(*scene);
-  if (given) scene->bounds = in_local_frame(*given, *scene);
-  if (auto found = given ? Expected<void>() : find_extent(*scene); !found)
-    return std::unexpected(found.error().within(folder.string()));
-  if (auto checked = check_bounds(*scene); !checked) return std::unexpected(checked.error().within(folder.string()));
-  limit_depths(*scene, given.has_value());
-  if (given) QUORUM_TRY(find_ranges_inside(*scene));
+  if (scene) QUORUM_TRY(place_scene(*scene, options, given, folder.string()));
   return scene;
+}
+
+/// The box that the options give, after they were checked.
+Expected<std::optional<Bounds>> given_bounds(const SceneOptions& options) {
+  if (options.bounds && !options.roi.empty())
+    return failure(ErrorKind::kUsage, option_name("roi") + ": give it or " + option_name("bounds") + ", not both");
+  if (options.max_image_size != 0 && options.max_image_size < 16)
+    return failure(ErrorKind::kUsage, fmt::format("{} {}: give 16 pixels or more, or 0", option_name("max-image-size"),
+                                                  options.max_image_size));
+  if (options.roi.empty()) return options.bounds;
+  QUORUM_ASSIGN(const auto box, read_roi(options.roi));
+  return box;
+}
+
+/// What is left once the views have their places.
+Expected<void> end_reading(Scene& scene, const SceneOptions& options) {
+  QUORUM_TRY(note_missing_ends(scene));
+  QUORUM_TRY(note_pixel_range(scene));
+  for (std::string& note : scene.notes) note = printable(note);
+  if (options.max_image_size > 0) limit_image_size(scene, options.max_image_size);
+  mark_copies(scene);
+  return {};
 }
 
 }  // namespace
@@ -193,23 +220,16 @@ Expected<Bounds> read_roi(const fs::path& path) {
 }
 
 Expected<Scene> read_scene(const fs::path& folder, const SceneOptions& options) {
-  if (options.bounds && !options.roi.empty())
-    return failure(ErrorKind::kUsage, option_name("roi") + ": give it or " + option_name("bounds") + ", not both");
-  if (options.max_image_size != 0 && options.max_image_size < 16)
-    return failure(ErrorKind::kUsage, fmt::format("{} {}: give 16 pixels or more, or 0", option_name("max-image-size"),
-                                                  options.max_image_size));
-  std::optional<Bounds> given = options.bounds;
-  if (!options.roi.empty()) {
-    QUORUM_ASSIGN(const auto box, read_roi(options.roi));
-    given = box;
-  }
+  QUORUM_ASSIGN(const auto given, given_bounds(options));
   auto scene = read_views(folder, options, given);
-  if (!scene) return scene;
-  QUORUM_TRY(note_missing_ends(*scene));
-  QUORUM_TRY(note_pixel_range(*scene));
-  for (std::string& note : scene->notes) note = printable(note);
-  if (options.max_image_size > 0) limit_image_size(*scene, options.max_image_size);
-  mark_copies(*scene);
+  if (scene) QUORUM_TRY(end_reading(*scene, options));
+  return scene;
+}
+
+Expected<Scene> complete_scene(Scene scene, const SceneOptions& options) {
+  QUORUM_ASSIGN(const auto given, given_bounds(options));
+  QUORUM_TRY(place_scene(scene, options, given, "scene"));
+  QUORUM_TRY(end_reading(scene, options));
   return scene;
 }
 

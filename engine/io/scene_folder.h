@@ -57,4 +57,9 @@ Expected<Bounds> read_roi(const std::filesystem::path& path);
 /// or no view sees them, and (kUsage) if both bounds and roi are given, or max_image_size is below 16.
 Expected<Scene> read_scene(const std::filesystem::path& folder, const SceneOptions& options);
 
+/// What read_scene does with what a reader gives, for views that no file describes: named (name_views), with
+/// photographs, cameras, points and masks in world coordinates. Of the options the format, images and model are not
+/// looked at. Fails as read_scene does after reading.
+Expected<Scene> complete_scene(Scene scene, const SceneOptions& options);
+
 }  // namespace quorum
