@@ -18,6 +18,7 @@ set(QUORUM_PACKAGES
   "heif    | ${HEIF_LIBRARY}                             | libheif/"
   "JPEG    | JPEG::JPEG                                  | jpeglib.h jerror.h"
   "stb     |                                             | stb/"
+  "API     | quorum_api                                  | quorum/"
   "CLI11   | CLI11::CLI11                                | CLI/"
   "gtest   | GTest::gtest                                | gtest/")
 
@@ -44,12 +45,14 @@ set(QUORUM_FOLDERS
   "engine/conformance | core synthetic io pipeline                                   | fmt"
   "host               | shaders engine                                               | fmt Vulkan SPIRV"
   "host/run           | engine host                                                  | fmt TBB"
+  "host/api           | engine host host/run                                         | fmt API"
   "tools              | engine host host/run                                         | fmt TBB json CLI11"
   "tests/support      | shaders engine host                                          | Eigen fmt gtest"
   "tests/engine       | shaders engine tests/support                                 | Eigen fmt TBB json gtest heif"
   "tests/host         | shaders engine host tests/support                            | fmt gtest"
   "tests/parity       | shaders engine host tests/support                            | fmt gtest"
   "tests/tools        | engine tests/support                                         | fmt json gtest"
+  "tests/host/api     | engine tests/support tests/tools                             | fmt gtest json API"
   "tests/fuzz         | engine                                                       | ")
 
 # Reads a row of either table into <out>_name, <out>_first and <out>_second, the last two as lists.

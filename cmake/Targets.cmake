@@ -23,8 +23,9 @@ set(precompiled_headers
   <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <fmt/format.h> <oneapi/tbb/parallel_for.h>)
 
 # Options of a target: warnings, and float arithmetic that is never contracted or reordered, since results are compared
-# byte by byte (docs/architecture.md, "One result everywhere"). None of them passes to who links the target. TEST: for
-# code that tests; what it spares there is a third of the time of all compilers.
+# byte by byte (docs/architecture.md, "One result everywhere"). All code can go into the shared library, too (Api.cmake),
+# and is compiled once for it and for the program. None of these passes to who links the target. TEST: for code that
+# tests; what it spares there is a third of the time of all compilers.
 function(quorum_options target)
   cmake_parse_arguments(option "TEST" "" "" ${ARGN})
   target_compile_features(${target} PUBLIC cxx_std_23)
@@ -32,7 +33,8 @@ function(quorum_options target)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen fmt::fmt)  # what headers of the engine show
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-    -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<BOOL:${QUORUM_WERROR}>:-Werror>)
+    -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<BOOL:${QUORUM_WERROR}>:-Werror>
+    -fPIC -fvisibility=hidden -fvisibility-inlines-hidden)
   if(QUORUM_SANITIZE)
     target_compile_options(${target} PRIVATE
       -fsanitize=address -fno-omit-frame-pointer

@@ -18,7 +18,7 @@ set(long_tests
   BackendsParity.ImagesOf* BackendsParity.DepthMapsAreEqualWhere* SweepDepth*Parity.Every* SweepDepth*Parity.TheSecond*
   Reconstruct.MeshIsNear* Reconstruct.Threads* Reconstruct.DepthThenFuse* Reconstruct.FillHoles* Reconstruct.OtherOptions*
   Reconstruct.Progress* Reconstruct.Vulkan* Reconstruct.ViewsWithout* Reconstruct.SceneWithout* Reconstruct.RenderByError*
-  Plans.Sizes* Report.Names* Report.Where*)
+  Plans.Sizes* Report.Names* Report.Where* ApiReconstruct.FilesAnd* ApiReconstruct.MasksOf*)
 set(tests_to_run "*")
 if(QUORUM_SANITIZE)
   list(JOIN long_tests ":" tests_to_run)
@@ -65,3 +65,5 @@ if(tool_tests)
     QUORUM_PROGRAM_WITHOUT_VULKAN="$<TARGET_FILE:${program_without_vulkan}>")
   add_dependencies(tool_tests quorum ${program_without_vulkan})
 endif()
+
+include(ApiTesting)

@@ -8,7 +8,7 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 build=build/release
 
-sources() { find engine host tools tests shaders \( -name '*.cc' -o -name '*.h' \) "$@"; }
+sources() { find engine host tools tests shaders docs/examples \( -name '*.cc' -o -name '*.h' \) "$@"; }
 
 # The format of .clang-format. Other versions of clang-format lay out some lines in other ways.
 check_format() { sources -print0 | xargs -0 -P "$(nproc)" -n 60 clang-format-14 --dry-run -Werror; }
@@ -47,7 +47,7 @@ check_tidy() {
   mkdir -p build/check
   export -f unit
   export build
-  for folder in tools host host/run engine/*; do echo "$folder"; done |
+  for folder in tools host host/run host/api engine/*; do echo "$folder"; done |
     xargs -P "$(nproc)" -I{} bash -c 'files=({}/*.cc) && name={} && unit "${name//\//_}" "${files[@]}"'
 }
 
@@ -81,7 +81,7 @@ check_links() {
     [[ "$target" == http* || "$target" == \#* ]] && continue
     [[ -e "$(dirname "$file")/${target%%#*}" ]] && continue
     echo "$file:$line: links to $target, which is not there" && failed=1
-  done < <(documents | xargs grep -noHE '\]\([^) ]+')
+  done < <(documents | xargs grep -noHE '[^[]\]\([^) ]+')
   while IFS=: read -r file line target; do
     target="${target//\`/}"
     [[ "$target" == *NAME* ]] && continue

@@ -153,7 +153,7 @@ Expected<std::optional<Bounds>> given_bounds(const SceneOptions& options) {
     return failure(ErrorKind::kUsage, fmt::format("{} {}: give 16 pixels or more, or 0", option_name("max-image-size"),
                                                   options.max_image_size));
   if (options.roi.empty()) return options.bounds;
-  QUORUM_ASSIGN(const auto box, read_roi(options.roi));
+  QUORUM_ASSIGN(auto box, read_roi(options.roi));
   return box;
 }
 
