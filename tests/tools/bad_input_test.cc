@@ -298,8 +298,8 @@ TEST_F(BadInput, CamerasOfOtherPhotographsAreToldAndTinyScenesAreNot) {
     return quorum_program({"reconstruct", scene().string(), "-o", result().string(), "--device", "cpu"}).err;
   };
   const std::string doubt = "belong to these photographs";
-  EXPECT_TRUE(contains(notes(8, 200, 0.6), doubt));
-  EXPECT_FALSE(contains(notes(8, 200, 1.0), doubt));
+  EXPECT_TRUE(contains(notes(6, 128, 0.6), doubt));
+  EXPECT_FALSE(contains(notes(6, 128, 1.0), doubt));
   EXPECT_FALSE(contains(notes(6, 96, 1.0), doubt)) << "5 % of so few pixels say nothing";
 }
 

@@ -451,8 +451,7 @@ TEST(ColmapData, SparsePointsOfRealModelsFallOnTheirObservations) {
     EXPECT_GT(found.count, set.least_observations) << set.folder;
     EXPECT_LT(found.mean_distance, set.mean_distance) << set.folder;
     EXPECT_LT(found.mean.norm(), 0.05) << set.folder << ": half a pixel would show here";
-    RecordProperty(std::string(set.folder) + "_mean_px",
-                   fmt::format("{:.4f} of {}", found.mean_distance, found.count));
+    RecordProperty(std::string(set.folder) + "_mean_px", fmt::format("{:.4f} of {}", found.mean_distance, found.count));
   }
 }
 

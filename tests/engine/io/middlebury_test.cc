@@ -123,7 +123,7 @@ TEST_F(Middlebury, MalformedViewIsNamedWithFileAndLine) {
   expect_bad_input(read_par(with_third("b.png 1e30 0 20 0 1e30 15 0 0 1 1 0 0 0 1 0 0 0 1 0 0 5")),
                    {"tiny_par.txt:3: its focal length 1e+30", "correct it, or leave the view out"});
   expect_bad_input(read_par(with_third("b.png 100 0 20 0 100 15 0 0 1 1 0 0 0 1 0 0 0 1 0 0 1e30")),
-                   {"tiny_par.txt:3: its position (0 0 -1e+30)"});
+                   {"tiny_par.txt:3: its position (-0 -0 -1e+30) is beyond all units"});
   expect_bad_input(read_par("a.png x 0 20 0 100 15 0 0 1 1 0 0 0 1 0 0 0 1 0 0 5\n"), {"tiny_par.txt:1: k11"});
 }
 
