@@ -9,6 +9,7 @@
 #include "engine/io/file.h"
 #include "engine/io/image_file.h"
 #include "engine/io/image_store.h"
+#include "engine/io/masks.h"
 #include "engine/io/ply.h"
 #include "engine/io/scene_folder.h"
 #include "tests/engine/io/io_test.h"
@@ -161,6 +162,19 @@ TEST_F(Transforms, MasksOfFramesAreTaken) {
   EXPECT_EQ((*mask)->at(32, 20), 0);
   replace("masks/a.png", "masks/none.png");
   expect_bad_input(read(), {"frame 0", "mask_path \"masks/none.png\" is not there"});
+}
+
+TEST_F(Transforms, AFolderOfMasksNeedsNotRepeatTheFoldersOfThePhotographs) {
+  fs::create_directories(path("masks"));
+  for (const char* name : {"a.png", "b.png.png", "c.png", "d.png"})
+    write_png(path("masks") / name, ColorImage(64, 48, make_rgb(255, 255, 255))).value();
+  std::vector<View> views = read()->views;
+  const auto found = find_masks(path("masks"), views);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(views[0].mask_path, path("masks/a.png"));
+  EXPECT_EQ(views[1].mask_path, path("masks/b.png.png"));
+  views[1].image_name = "other/a.png";
+  expect_bad_input(find_masks(path("masks"), views), {"a.png would be the mask of both images/a.png and other/a.png"});
 }
 
 TEST_F(Transforms, PointsOfACloudAreSeenByTheViewsBeforeThem) {
