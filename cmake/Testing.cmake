@@ -15,6 +15,7 @@ set(long_tests
   CoarseSweep.FindsNothing* FindRangesInside.Gives* RenderTemple.Texture* *Conformance.TheCpu*
   RunExperiments.* RunMakerTest.RunsThat* RunMakerTest.Scenes* RunMakerTest.Broken* RunMakerTest.ARunIs*
   PointScene.MeshIs* PointScene.MovedFar* PointScene.AllFormats* PointScene.Bounds*
+  CameraPath.OfA* CameraPath.With* CameraPath.Around*
   BackendsParity.ImagesOf* BackendsParity.DepthMapsAreEqualWhere* SweepDepth*Parity.Every* SweepDepth*Parity.TheSecond*
   Reconstruct.MeshIsNear* Reconstruct.Threads* Reconstruct.DepthThenFuse* Reconstruct.FillHoles* Reconstruct.OtherOptions*
   Reconstruct.Progress* Reconstruct.Vulkan* Reconstruct.ViewsWithout* Reconstruct.SceneWithout* Reconstruct.RenderByError*

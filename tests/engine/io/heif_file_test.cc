@@ -79,5 +79,5 @@ TEST(HeifFile, AFilmIsNoPhotograph) {
 }  // namespace quorum
 
 // x265, which writes the picture, keeps a block to the end of the program. LeakSanitizer asks this function.
-extern "C" const char* __lsan_default_suppressions();
+extern "C" [[gnu::visibility("default")]] const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:x265_malloc\n"; }
