@@ -38,6 +38,9 @@ class Components {
   /// Measured triangles in the component of a vertex.
   std::uint64_t size(std::uint32_t vertex) { return triangles_[find(vertex)]; }
 
+  /// Measured triangles in the component that has the most. There is at least one vertex.
+  [[nodiscard]] double largest_size() const { return static_cast<double>(triangles_[largest()]); }
+
   /// Representative of the component with the most triangles; of equal ones the lowest. There is at least one vertex.
   [[nodiscard]] std::uint32_t largest() const {
     return static_cast<std::uint32_t>(std::ranges::max_element(triangles_) - triangles_.begin());
@@ -85,8 +88,10 @@ Mesh clean(const Mesh& mesh, const CleanOptions& options, CleanCounts* counts) {
       drop_triangles(triangles, [&](const Triangle& triangle) { return !std::ranges::all_of(triangle, is_confident); });
 
   Components components(mesh, triangles);
+  const double least_share = triangles.empty() ? 0.0 : options.min_component_share * components.largest_size();
   const auto is_small = [&](const Triangle& triangle) {
-    return components.size(triangle[0]) < options.min_component_triangles;
+    const std::uint64_t size = components.size(triangle[0]);
+    return size < options.min_component_triangles || static_cast<double>(size) < least_share;
   };
   if (!std::ranges::all_of(triangles, is_small))
     dropped.small_component_triangles = drop_triangles(triangles, is_small);

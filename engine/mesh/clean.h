@@ -11,6 +11,7 @@ struct CleanOptions {
   float min_confidence = 0;  ///< a triangle with a corner below this is dropped; >= 0
   std::uint64_t min_component_triangles =
       100;                         ///< a component with fewer measured triangles is dropped, unless all are small
+  double min_component_share = 0;  ///< as is one with fewer than this share of the largest one's; 0 to 1
   bool largest_component = false;  ///< keep only the component with the most triangles
 };
 

@@ -64,6 +64,7 @@ std::vector<RunOption> make_table() {
   add(RunStage::kClean, {
     Make::number_or_auto("min-confidence", AT(min_confidence), {}, "Drop triangles of less; 1 is one view that is fully confident; 0 keeps all"),
     Make::number("min-component", AT(clean.min_component_triangles), {}, "Drop pieces of fewer triangles, unless all have fewer"),
+    Make::number("min-component-share", AT(clean.min_component_share), {0, 1}, "Drop pieces of fewer triangles than this share of the largest piece's, such as 0.01"),
     Make::toggle("largest-component", AT(clean.largest_component), "Keep the largest piece alone"),
     Make::choice("frame", AT(frame), {{"world", PlyFrame::kWorld}, {"local", PlyFrame::kLocal}}, "Coordinates of mesh, cloud and colmap/ of a scene far from its origin (UTM): world, in double; local: without the offset that run.json and the files' headers state"),
   });

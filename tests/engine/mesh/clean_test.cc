@@ -74,6 +74,16 @@ TEST(Clean, SmallComponentsGoAndOrderStays) {
   EXPECT_EQ(counts.unreferenced_vertices, 5U);
 }
 
+TEST(Clean, ComponentsGoThatAreASmallShareOfTheLargest) {
+  CleanOptions by_share = options(0, 0);
+  for (const auto& [share, kept] : {std::pair{0.0, 5U}, {0.66, 5U}, {0.67, 3U}, {1.0, 3U}}) {
+    by_share.min_component_share = share;  // of the three triangles, where the other has two
+    EXPECT_EQ(clean(two_components(), by_share).triangles.size(), kept) << share;
+  }
+  by_share.min_component_triangles = 4;
+  EXPECT_EQ(clean(two_components(), by_share).triangles.size(), 5U) << "all pieces are small";
+}
+
 TEST(Clean, OnlyTheLargestComponentStaysIfWanted) {
   CleanCounts counts;
   const Mesh cleaned = clean(two_components(), options(0, 0, true), &counts);
