@@ -2,14 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
-#include <spawn.h>
 #include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <initializer_list>
 #include <iterator>
 #include <string>
@@ -19,8 +16,7 @@
 #include "engine/io/file.h"
 #include "engine/io/unread_image.h"
 #include "engine/io/view_names.h"
-
-extern char** environ;
+#include "tools/colmap_process.h"
 
 namespace quorum {
 namespace {
@@ -32,8 +28,6 @@ struct Step {
   std::string name;
   std::string command;
 };
-
-Error stopped_between_steps() { return {ErrorKind::kStopped, "stopped as asked; finished steps are kept"}; }
 
 bool is_photograph(const fs::path& path) {
   return std::ranges::count(std::initializer_list<std::string>{".jpg", ".jpeg", ".png", ".tif", ".tiff"},
@@ -87,81 +81,12 @@ std::vector<std::string> describe(const fs::path& photos, const std::vector<fs::
 /// What is missing of a photograph colmap takes for a gray part of the scene, and writes so.
 Expected<void> check_photographs(const std::vector<fs::path>& paths, const Progress& progress) {
   for (const fs::path& path : paths) {
-    if (progress.stop_requested()) return std::unexpected(stopped_between_steps());
+    if (progress.stop_requested()) return std::unexpected(stopped_by_request());
     QUORUM_ASSIGN(const auto bytes, read_file(path));
     if (const std::string why = why_unread(path, bytes, true); !why.empty())
       return failure(ErrorKind::kInput, fmt::format("{}: {}", path.string(), why));
   }
   return {};
-}
-
-/// Ends a process and those that it started: asked first, then at once.
-void end_group(pid_t process) {
-  ::kill(-process, SIGTERM);
-  for (int wait = 0; wait < 100 && ::waitpid(process, nullptr, WNOHANG) == 0; ++wait) ::usleep(10'000);
-  ::kill(-process, SIGKILL);
-  ::waitpid(process, nullptr, 0);
-}
-
-/// Runs colmap with its output in a file; the result is its exit status. It has a process group of its own, which ends
-/// with us when we are asked to stop.
-Expected<int> call(const std::vector<std::string>& arguments, const fs::path& log, const Progress& progress) {
-  std::vector<std::string> words = {"colmap"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  ::posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  posix_spawnattr_t attributes;
-  ::posix_spawnattr_init(&attributes);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  ::posix_spawnattr_setpgroup(&attributes, 0);
-  ::setenv("QT_QPA_PLATFORM", "offscreen", 0);  // it asks for a display even where it shows nothing
-  pid_t process = 0;
-  const int problem = ::posix_spawnp(&process, "colmap", &actions, &attributes, pointers.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  ::posix_spawnattr_destroy(&attributes);
-  if (problem == ENOENT)
-    return failure(ErrorKind::kInput,
-                   "colmap is not installed; install it (Debian: apt install colmap), or give photographs with known "
-                   "cameras to quorum reconstruct");
-  if (problem != 0) return failure(ErrorKind::kInput, fmt::format("colmap can't be started (error {})", problem));
-  int status = 0;
-  while (true) {
-    const pid_t ended = ::waitpid(process, &status, WNOHANG);
-    if (ended == process || (ended < 0 && errno != EINTR)) return status;
-    if (progress.stop_requested()) {
-      end_group(process);
-      return std::unexpected(stopped_between_steps());
-    }
-    ::usleep(20'000);
-  }
-}
-
-/// Of the names that a switch has in different versions of colmap the one that the installed one's help lists; none
-/// where it lists none.
-Expected<std::string> installed_name(const std::string& command, std::initializer_list<const char*> names,
-                                     const fs::path& work, const Progress& progress) {
-  const fs::path help = work / (command + ".help");
-  QUORUM_TRY(call({command, "-h"}, help, progress));
-  QUORUM_ASSIGN(const auto text, read_file(help));
-  for (std::string name : names)
-    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
-      const char next = at + name.size() < text.size() ? text[at + name.size()] : ' ';
-      if (next == ' ' || next == '\n' || next == '=' || next == '\t' || next == '\r') return name;
-    }
-  return std::string();
-}
-
-/// The arguments that keep a command off the GPU.
-Expected<std::vector<std::string>> without_gpu(const std::string& command, std::initializer_list<const char*> names,
-                                               const fs::path& work, const Progress& progress) {
-  QUORUM_ASSIGN(const auto name, installed_name(command, names, work, progress));
-  return name.empty() ? std::vector<std::string>() : std::vector<std::string>{name, "0"};
 }
 
 /// The folder as only one run may use it. A colmap inherits the lock, so one that a killed run left keeps it.
@@ -212,7 +137,7 @@ Expected<void> run_step(const Step& step, const fs::path& photos, const fs::path
     if (max_image_size > 0) add({"--max_image_size", std::to_string(max_image_size)});
   }
   const fs::path log = work / (step.name + ".log");
-  QUORUM_ASSIGN(const int status, call(arguments, log, progress));
+  QUORUM_ASSIGN(const int status, call_colmap(arguments, log, progress));
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   return failure(ErrorKind::kInput, fmt::format("colmap {} failed; see {}", step.command, log.string()));
 }
@@ -251,7 +176,7 @@ Expected<void> run_colmap(const fs::path& photos, const fs::path& work, int max_
   progress.stage("finding cameras", static_cast<int>(std::size(steps)));
   bool stale = false;
   for (const Step& step : steps) {
-    if (progress.stop_requested()) return std::unexpected(stopped_between_steps());
+    if (progress.stop_requested()) return std::unexpected(stopped_by_request());
     const fs::path note = work / (step.name + ".done");
     const auto done_for = read_file(note);
     stale = stale || !done_for || *done_for != input;

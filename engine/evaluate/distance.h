@@ -13,13 +13,11 @@
 
 namespace quorum {
 
+struct PrimitiveTree;
+
 /// A surface that distances can be taken to: a mesh or, without triangles, a cloud. Fails (kInput) if it has no vertex
 /// or if a position is not finite.
 Expected<void> check_surface(const Mesh& surface);
-
-/// Distance of a point to a triangle, scene units. Corners that lie on a line or in a point are a segment or a point.
-double distance_to_triangle(const Eigen::Vector3d& point, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                            const Eigen::Vector3d& c);
 
 /// Unsigned distances to a mesh (nearest place on its triangles) or to a cloud (nearest point).
 class SurfaceDistance {
@@ -36,9 +34,8 @@ class SurfaceDistance {
   [[nodiscard]] std::vector<double> to(std::span<const Eigen::Vector3d> points) const;
 
  private:
-  struct Tree;
   SurfaceDistance() = default;
-  std::vector<std::shared_ptr<const Tree>> trees_;  ///< of parts of the surface that lie far apart
+  std::vector<std::shared_ptr<const PrimitiveTree>> trees_;  ///< of parts of the surface that lie far apart
 };
 
 }  // namespace quorum

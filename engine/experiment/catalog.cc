@@ -3,34 +3,11 @@
 
 #include <utility>
 
+#include "engine/experiment/catalog_parts.h"
 #include "engine/experiment/experiment.h"
 
 namespace quorum {
 namespace {
-
-RunSettings paper_run(const std::string& scene, std::string label) {
-  return {scene, std::move(label), 0, paper_options(scene)};
-}
-
-RunSettings default_run(const std::string& scene, std::string label) {
-  return {scene, std::move(label), 0, default_options(scene)};
-}
-
-RunSettings axis_run(const std::string& scene, std::string label) {
-  RunSettings run = paper_run(scene, std::move(label));
-  run.options.sweep.window_model = WindowModel::kAxis;
-  return run;
-}
-
-/// The pictures of some runs in rows: one row for each picture, one column for each run.
-Figure rows_of_pictures(std::string name, const std::vector<std::size_t>& runs, const std::vector<Picture>& pictures,
-                        const std::vector<std::string>& captions) {
-  Figure figure{std::move(name), static_cast<int>(runs.size()), {}};
-  for (const Picture picture : pictures)
-    for (std::size_t i = 0; i < runs.size(); ++i)
-      figure.panels.push_back({runs[i], picture, fmt::format("{}, {}", captions[i], to_string(picture))});
-  return figure;
-}
 
 Experiment window_size() {
   Experiment experiment{"window", "Window size (4.2, figure 2)", {}, {}};
@@ -175,137 +152,14 @@ Experiment steps() {
   return experiment;
 }
 
-Experiment window_model() {
-  Experiment experiment{"model", "Windows along the image axes, or along the plane of equal depth", {}, {}};
-  for (const char* scene : {"templeSparseRing", "templeRing", "dinoSparseRing", "bunnyHemi", "dragonRing",
-                            "synthetic16", "synthetic24", "synthetic47"}) {
-    experiment.runs.push_back(axis_run(scene, "axis"));
-    experiment.runs.push_back(paper_run(scene, "plane"));
-  }
-  experiment.figures.push_back({"model-temple",
-                                4,
-                                {{2, Picture::kDepth, "axis, depth"},
-                                 {3, Picture::kDepth, "plane, depth"},
-                                 {2, Picture::kMesh, "axis, mesh"},
-                                 {3, Picture::kMesh, "plane, mesh"}}});
-  return experiment;
-}
-
-Experiment weights() {
-  Experiment experiment{"weights", "What a depth's weight is made of (2.2)", {}, {}};
-  for (const char* scene : {"dragonRing", "bunnyHemi", "synthetic24"}) {
-    const auto add = [&](const char* label, bool confidence, bool slant, bool border) {
-      RunSettings run = default_run(scene, label);
-      run.options.fusion.weigh_confidence = confidence;
-      run.options.fusion.weigh_slant = slant;
-      run.options.fusion.weigh_border = border;
-      experiment.runs.push_back(run);
-    };
-    add("confidence, slant, border", true, true, true);
-    add("without confidence", false, true, true);
-    add("without slant", true, false, true);
-    add("without border", true, true, false);
-    add("none", false, false, false);
-  }
-  experiment.figures.push_back({"weights-dragon",
-                                3,
-                                {{0, Picture::kError, "all factors, error"},
-                                 {3, Picture::kError, "without border, error"},
-                                 {4, Picture::kError, "none, error"}}});
-  return experiment;
-}
-
-Experiment view_rule() {
-  Experiment experiment{"views", "Neighbors by the angle between optical axes (4.1), or by parallax", {}, {}};
-  for (const char* scene : {"templeSparseRing", "dinoSparseRing", "dragonRing", "synthetic16"}) {
-    for (const auto& [label, rule] : {std::pair{"angle", ViewRule::kAngle}, {"parallax", ViewRule::kParallax}}) {
-      RunSettings run = default_run(scene, label);
-      run.options.views.rule = rule;
-      experiment.runs.push_back(run);
-    }
-  }
-  experiment.figures.push_back(
-      rows_of_pictures("views-temple", {0, 1}, {Picture::kDepth, Picture::kMesh}, {"angle", "parallax"}));
-  return experiment;
-}
-
-Experiment defaults() {
-  Experiment experiment{"defaults", "The program's defaults beside the paper's settings", {}, {}};
-  for (const char* scene :
-       {"synthetic16", "synthetic24", "synthetic47", "bunnyHemi", "dragonRing", "templeSparseRing", "templeRing"}) {
-    experiment.runs.push_back(axis_run(scene, "paper, axis windows"));
-    experiment.runs.push_back(paper_run(scene, "paper, plane windows"));
-    experiment.runs.push_back(default_run(scene, "defaults"));
-  }
-  experiment.figures.push_back({"defaults-dragon",
-                                4,
-                                {{13, Picture::kPhoto, "photograph"},
-                                 {12, Picture::kError, "paper, axis windows"},
-                                 {13, Picture::kError, "paper, plane windows"},
-                                 {14, Picture::kError, "defaults"}}});
-  experiment.figures.push_back({"defaults-temple",
-                                3,
-                                {{18, Picture::kMesh, "paper, axis windows"},
-                                 {19, Picture::kMesh, "paper, plane windows"},
-                                 {20, Picture::kMesh, "defaults"}}});
-  return experiment;
-}
-
 }  // namespace
 
-RunOptions default_options(const std::string& scene) {
-  RunOptions options;
-  const ExperimentScene& source = find_scene(paper_scenes(), scene);
-  options.mask_below = source.temple ? 0.0 : source.background_level;
-  // The experiments are about the paper's method, whose windows don't tilt and whose distances lie along the line of
-  // sight, with weights that suit its depth maps, which are not confirmed. What goes beyond: docs/quality.md.
-  options.sweep.window_model = WindowModel::kPlane;
-  options.fusion.signed_distance = SignedDistance::kRay;
-  options.fusion.feather = 4;
-  options.confirm = false;
-  return options;
-}
-
-RunOptions paper_options(const std::string& scene) {
-  RunOptions options = default_options(scene);
-  options.views = {.neighbor_count = 4, .min_angle_deg = 4.0, .max_angle_deg = 90.0};
-  options.sweep = {.window = 5,
-                   .threshold = 0.6F,
-                   .min_votes = 2,
-                   .depth_step = 0.0025,
-                   .step_pixels = 0.5,
-                   .refinement = 10,
-                   .window_model = WindowModel::kPlane};
-  return options;
-}
-
 const Catalog& paper_catalog() {
-  static const Catalog kCatalog = {paper_scenes(),
-                                   {density(), window_size(), threshold(), neighbors(), texture(), silhouettes(),
-                                    steps(), window_model(), weights(), view_rule(), defaults()}};
+  static const Catalog kCatalog = {
+      paper_scenes(),
+      {density(), window_size(), threshold(), neighbors(), texture(), silhouettes(), steps(), window_model_experiment(),
+       weights_experiment(), view_rule_experiment(), defaults_experiment()}};
   return kCatalog;
-}
-
-std::string_view to_string(Picture picture) {
-  switch (picture) {
-    case Picture::kPhoto:
-      return "photo";
-    case Picture::kDepth:
-      return "depth";
-    case Picture::kCorrelation:
-      return "correlation";
-    case Picture::kConfidence:
-      return "confidence";
-    case Picture::kMesh:
-      return "mesh";
-    case Picture::kColor:
-      return "color";
-    case Picture::kMeshConfidence:
-      return "mesh-confidence";
-    case Picture::kError:
-      return "error";
-  }
-  return "";
 }
 
 }  // namespace quorum

@@ -7,6 +7,7 @@
 
 #include "engine/core/check.h"
 #include "engine/evaluate/color_by_error.h"
+#include "engine/experiment/experiment.h"
 #include "engine/io/contact_sheet.h"
 #include "engine/io/image_file.h"
 #include "engine/io/preview.h"
@@ -95,6 +96,28 @@ Expected<void> write_pictures(const OpenScene& scene, const RunOptions& options,
   if (!scene.truth) return {};
   QUORUM_ASSIGN(const auto colored, color_by_error(mesh, *scene.truth, kFullError));
   return writer.draw(Picture::kError, colored, Shading::kColor);
+}
+
+std::string_view to_string(Picture picture) {
+  switch (picture) {
+    case Picture::kPhoto:
+      return "photo";
+    case Picture::kDepth:
+      return "depth";
+    case Picture::kCorrelation:
+      return "correlation";
+    case Picture::kConfidence:
+      return "confidence";
+    case Picture::kMesh:
+      return "mesh";
+    case Picture::kColor:
+      return "color";
+    case Picture::kMeshConfidence:
+      return "mesh-confidence";
+    case Picture::kError:
+      return "error";
+  }
+  return "";
 }
 
 }  // namespace quorum

@@ -6,6 +6,7 @@
 #include <functional>
 #include <type_traits>
 
+#include "engine/camera/pinhole_picture.h"
 #include "engine/core/check.h"
 #include "engine/image/halve.h"
 #include "engine/io/image_file.h"

@@ -1,7 +1,7 @@
 // Photographs of a lens as pinhole pictures.
 #pragma once
 
-#include "engine/camera/lens.h"
+#include "engine/camera/pinhole_picture.h"
 #include "engine/core/error.h"
 #include "engine/image/image.h"
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/camera/pinhole_picture.h"
 #include "engine/core/option.h"
 #include "engine/io/image_size.h"
 #include "engine/io/text.h"

@@ -85,6 +85,8 @@ void split_fans(Mesh& mesh) {
   }
 }
 
+}  // namespace
+
 void drop_unused_vertices(Mesh& mesh) {
   std::vector<std::uint32_t> new_index(mesh.vertices.size());
   for (const Triangle& triangle : mesh.triangles)
@@ -99,8 +101,6 @@ void drop_unused_vertices(Mesh& mesh) {
   for (Triangle& triangle : mesh.triangles)
     for (std::uint32_t& corner : triangle) corner = new_index[corner];
 }
-
-}  // namespace
 
 Mesh make_manifold(Mesh mesh) {
   if (mesh.triangles.empty()) return mesh;

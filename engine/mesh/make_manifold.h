@@ -11,4 +11,7 @@ namespace quorum {
 /// was used before: a cloud stays as it is. What stays keeps its order. Cannot fail.
 Mesh make_manifold(Mesh mesh);
 
+/// Drops vertices that no triangle uses. What stays keeps its order.
+void drop_unused_vertices(Mesh& mesh);
+
 }  // namespace quorum

@@ -8,6 +8,7 @@
 #include "engine/io/image_store.h"
 #include "engine/mesh/drop_specks.h"
 #include "engine/mesh/fill_holes.h"
+#include "engine/mesh/filled_patches.h"
 #include "engine/pipeline/view_loop.h"
 #include "engine/volume/slabs.h"
 

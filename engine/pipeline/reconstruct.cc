@@ -11,6 +11,7 @@
 #include "engine/io/file.h"
 #include "engine/io/ply.h"
 #include "engine/mesh/fill_holes.h"
+#include "engine/mesh/filled_patches.h"
 #include "engine/mesh/make_manifold.h"
 #include "engine/pipeline/colmap_workspace.h"
 #include "engine/pipeline/compute_depth_maps.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/mesh/fill_holes.h"
+#include "engine/mesh/filled_patches.h"
 #include "engine/pipeline/cpu_backend.h"
 #include "host/vulkan_backend.h"
 #include "tests/parity/parity_test.h"

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <vector>
 
+#include "engine/camera/pinhole_picture.h"
+
 namespace quorum {
 namespace {
 

@@ -9,6 +9,8 @@
 #include <limits>
 #include <random>
 
+#include "engine/evaluate/triangle_distance.h"
+
 namespace quorum {
 namespace {
 

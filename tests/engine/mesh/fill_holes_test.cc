@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/mesh/filled_patches.h"
 #include "tests/support/mesh_measures.h"
 
 namespace quorum {

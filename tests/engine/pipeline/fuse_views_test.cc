@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/mesh/fill_holes.h"
+#include "engine/mesh/filled_patches.h"
 #include "engine/pipeline/cpu_backend.h"
 #include "tests/support/fusion_scene.h"
 #include "tests/support/limited_backend.h"
