@@ -106,7 +106,7 @@ DepthStage::DepthStage(Commands& commands, std::optional<SweepForm> form)
       batch_size_(kStartWindows, kLeastWindows, ncc_values(*info_)) {}
 
 SweepForm DepthStage::form_of(const SweepTask& task) const {
-  if (task.options.window_model == WindowModel::kAxis) return SweepForm::kGroups;
+  if (task.options.is_along_axes()) return SweepForm::kGroups;
   const std::uint64_t most = std::min(info_->max_texel_buffer_elements * sizeof(Texel), info_->max_allocation);
   const auto fits = [&](const auto& image) { return quads_size(*image) <= most; };
   return fits(task.reference) && std::ranges::all_of(task.neighbors, fits) ? form_ : SweepForm::kGroups;
@@ -122,7 +122,7 @@ DepthStage::Pass DepthStage::make_pass(SweepForm form, const SweepOptions& optio
     constants.push_back({"kGroupSize", static_cast<std::uint32_t>(kLanesGroupSize)});
   } else {
     constants.push_back({"kGroupSize", static_cast<std::uint32_t>(block.pixels())});
-    constants.push_back({"kAxisModel", options.window_model == WindowModel::kAxis ? 1U : 0U});
+    constants.push_back({"kAxisModel", options.is_along_axes() ? 1U : 0U});
   }
   return {block, commands_->kernel(form == SweepForm::kLanes ? "sweep_depth_lanes" : "sweep_depth", constants)};
 }
@@ -204,7 +204,7 @@ Expected<Grid<PixelVote>> DepthStage::sweep(const SweepTask& task) {
   prepare_kernels(task);
   const Inputs inputs = upload(task);
   auto votes = run_pass(task, inputs, task.ranges, sweep_->first, task.planes.refinement);
-  const bool slanted = task.options.window_model == WindowModel::kSlanted;
+  const bool slanted = task.options.is_slanted();
   if (votes && task.planes.refinement > 1 && !slanted)
     votes = run_pass(task, inputs, refine_ranges(*votes, task.planes), sweep_->second, 1);
   return votes;
@@ -212,7 +212,7 @@ Expected<Grid<PixelVote>> DepthStage::sweep(const SweepTask& task) {
 
 Expected<DepthMap> DepthStage::run(const SweepTask& task) {
   QUORUM_ASSIGN(const auto votes, sweep(task));
-  if (task.options.window_model != WindowModel::kSlanted) return depth_map_from_votes(votes, task.planes);
+  if (!task.options.is_slanted()) return depth_map_from_votes(votes, task.planes);
   const bool lanes = form_ == SweepForm::kLanes && planes_in_lanes_.fits(task);
   QUORUM_ASSIGN(const auto planes, lanes ? planes_in_lanes_.run(task, votes) : planes_.run(task, votes));
   return depth_map_from_planes(planes, task);

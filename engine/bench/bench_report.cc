@@ -50,7 +50,7 @@ Totals total(const Scene& scene, const RunOptions& options, const RunReport& rep
     const double pixels = static_cast<double>(found->width) * found->height;
     const auto valid = static_cast<double>(view.valid_pixels);
     sum.sweep_windows += static_cast<double>(view.depth_samples) * neighbors;
-    const bool second_pass = options.sweep.refinement > 1 && options.sweep.window_model != WindowModel::kSlanted;
+    const bool second_pass = options.sweep.refinement > 1 && !options.sweep.is_slanted();
     sum.refine_windows += second_pass ? valid * (2 * options.sweep.refinement - 1) * neighbors : 0.0;
     sum.valid_pixels += valid;
     sum.pixels += pixels;
@@ -91,7 +91,7 @@ std::vector<Cost> bench_costs(const Scene& scene, const RunOptions& options, con
   add("sweep_depth", "pixel · depth · neighbor", sum.sweep_windows, kernel("sweep_depth"),
       kWindowOperations * sum.sweep_windows, 4 * sum.images + 20 * sum.pixels,
       "135 operations a window; 4 bytes a pixel of reference and neighbors, 20 of ranges and votes", device);
-  if (options.sweep.window_model == WindowModel::kSlanted) {
+  if (options.sweep.is_slanted()) {
     const auto samples = static_cast<double>(report.sweep.refine_samples);  // 0 on a device that does not count them
     const auto windows = static_cast<double>(report.sweep.refine_windows);
     if (windows > 0)

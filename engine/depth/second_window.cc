@@ -8,7 +8,7 @@ namespace quorum {
 
 SweepTask make_second_task(const SweepTask& task, const DepthMap& first) {
   // Three rounds of refine_planes, which look three pixels far; other models look at each pixel by itself.
-  const int reach = task.options.window_model == WindowModel::kSlanted ? 9 : 0;
+  const int reach = task.options.is_slanted() ? 9 : 0;
   QUORUM_CHECK_EQ(first.depth.values.size(), task.ranges.values.size());
   SweepTask second = task;
   second.options.window = task.options.second_window;

@@ -24,7 +24,7 @@ float window_ncc(const SweepTask& task, int neighbor, int x, int y, int plane) {
   const float inverse_depth = task.planes.inverse_depth[static_cast<std::size_t>(plane)];
   const int radius = task.options.window / 2;
   const int extra_shift = extra_sample_shift(task.options.window);
-  const bool axis = task.options.window_model == WindowModel::kAxis;
+  const bool axis = task.options.is_along_axes();
   const Projection center = project(warp, x, y, inverse_depth, image.width, image.height, 0);
 
   const auto position = [&](int dx, int dy) {
@@ -76,7 +76,7 @@ Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& rang
         tile_planes.collect(ranges, tile, stride, window);
         if (tile_planes.planes().empty()) continue;
         sweep_tile(sweep, ranges, tile, tile_planes.planes(), votes);
-        const bool shared = task.options.window_model != WindowModel::kAxis;
+        const bool shared = !task.options.is_along_axes();
         tests += tile_planes.tests();
         samples += shared ? tile_planes.samples(window) : tile_planes.tests() * static_cast<uint>(window * window);
       }
@@ -94,7 +94,7 @@ Grid<PixelVote> sweep_planes(const SweepTask& task, const Grid<PlaneRange>& rang
 DepthMap sweep_depth(const SweepTask& task, const CpuSweepOptions& cpu, SweepWork* work) {
   SweepWork done;
   Grid<PixelVote> votes = sweep_planes(task, task.ranges, task.planes.refinement, cpu, &done.sweep);
-  if (task.options.window_model == WindowModel::kSlanted) {
+  if (task.options.is_slanted()) {
     const Grid<PixelPlane> planes = refine_planes(task, votes, cpu, &done.refine);
     if (work != nullptr) *work = done;
     return depth_map_from_planes(planes, task);

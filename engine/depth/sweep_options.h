@@ -26,10 +26,13 @@ struct SweepOptions {
   int second_window = 0;       ///< side of larger windows where these find no depth, odd, up to 15; 0 = none
   int support_tolerance = 15;  ///< of slanted windows, see make_support_windows(), 0..255; 255 = whole windows
 
+  [[nodiscard]] bool is_slanted() const { return window_model == WindowModel::kSlanted; }
+  [[nodiscard]] bool is_along_axes() const { return window_model == WindowModel::kAxis; }
+
   /// The step that step_pixels asks for.
   [[nodiscard]] double automatic_step_pixels() const {
     if (step_pixels > 0.0) return step_pixels;
-    return window_model == WindowModel::kSlanted ? 2.0 : 1.0;
+    return is_slanted() ? 2.0 : 1.0;
   }
 };
 

@@ -119,7 +119,7 @@ template <int kWindow>
       const PlaneWarp& warp = task.warps[neighbor];
       const PaddedImage& image = *task.neighbors[neighbor];
       const TexelColumns* columns = sampler != nullptr ? &sweep.neighbors[neighbor] : nullptr;
-      if (task.options.window_model != WindowModel::kAxis)
+      if (!task.options.is_along_axes())
         sweep_part<kWindow>({warp, image, columns, sampler}, inverse_depth, part, shift, rule.threshold, work);
       else
         sweep_axis_part<kWindow>(warp, image, inverse_depth, static_cast<uint>(plane), ranges, part, shift,
@@ -161,7 +161,7 @@ auto choose_form(int window, SimdLevel simd) {
 
 TileSweep make_tile_sweep(const SweepTask& task, SimdLevel simd) {
   TileSweep sweep{task, make_vote_rule(task.options, task.neighbor_count()), simd, {}};
-  if (row_sampler(simd) == nullptr || task.options.window_model == WindowModel::kAxis) return sweep;
+  if (row_sampler(simd) == nullptr || task.options.is_along_axes()) return sweep;
   for (const auto& neighbor : task.neighbors) sweep.neighbors.push_back(make_texel_columns(*neighbor));
   return sweep;
 }

@@ -30,8 +30,7 @@ Expected<std::shared_ptr<const PaddedImage>> load_padded(ImageStore& images, int
 /// Whether images of half and a quarter of the size help: with windows that follow tilted planes, if enough is left.
 bool has_small_images(const SweepTask& task) {
   constexpr int kLeastSide = 64;
-  return task.options.window_model == WindowModel::kSlanted &&
-         std::min(task.ranges.width, task.ranges.height) >= kLeastSide;
+  return task.options.is_slanted() && std::min(task.ranges.width, task.ranges.height) >= kLeastSide;
 }
 
 /// What is read of a view, and what is written.

@@ -57,7 +57,7 @@ Expected<DepthMap> CpuBackend::sweep_depth(const SweepTask& task) {
   SweepWork work;
   DepthMap map = quorum::sweep_depth(task, options_, &work);
   add_time("sweep_depth", work.sweep.cpu_seconds);
-  const bool slanted = task.options.window_model == WindowModel::kSlanted;
+  const bool slanted = task.options.is_slanted();
   add_time(slanted ? "refine_planes" : "refine_depth", work.refine.cpu_seconds);
   counts_.sweep_windows += work.sweep.windows;
   counts_.sweep_samples += work.sweep.samples;

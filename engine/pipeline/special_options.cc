@@ -67,7 +67,7 @@ Option<RunOptions> no_slant_option(std::string help) {
   Option<RunOptions> option = Make::plain("no-slant", "", std::move(help));
   option.least_words = option.most_words = 0;
   option.parse = [](RunOptions& options, const Words&) {
-    if (options.sweep.window_model == WindowModel::kSlanted) options.sweep.window_model = WindowModel::kPlane;
+    if (options.sweep.is_slanted()) options.sweep.window_model = WindowModel::kPlane;
     return Expected<void>();
   };
   option.text = [](const RunOptions&) { return std::string(); };
