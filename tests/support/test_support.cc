@@ -26,6 +26,8 @@ std::filesystem::path data_folder() {
   return std::filesystem::is_directory(folder) ? std::filesystem::canonical(folder) : std::filesystem::path();
 }
 
+std::filesystem::path source_folder() { return QUORUM_SOURCE_DIR; }
+
 void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }

@@ -22,6 +22,9 @@ class TemporaryFolder {
 /// Folder of the development data sets ($QUORUM_DATA, else ../shared/data beside the repository), or empty if absent.
 std::filesystem::path data_folder();
 
+/// The folder of the project's sources.
+std::filesystem::path source_folder();
+
 /// Writes text to a file; for making inputs.
 void write_text(const std::filesystem::path& path, const std::string& text);
 

@@ -52,7 +52,7 @@ TEST(ConformanceCases, TheFirstDifferenceIsTold) {
 }
 
 TEST(ConformanceCases, TheDocsSayWhatTheyMustGive) {
-  const std::string path = std::string(QUORUM_SOURCE_DIR) + "/docs/conformance.md";
+  const std::string path = (source_folder() / "docs/conformance.md").string();
   auto page = read_file(path);
   ASSERT_TRUE(page) << page.error().message;
   const std::size_t cases = page->find("## Cases");

@@ -10,6 +10,7 @@
 
 #include "engine/io/file.h"
 #include "engine/pipeline/run_json.h"
+#include "tests/support/test_support.h"
 
 namespace quorum {
 namespace {
@@ -113,7 +114,7 @@ TEST(RunOptions, JsonHoldsWhatChangesAStage) {
 }
 
 TEST(RunOptions, TheTableOfTheDocsIsThis) {
-  const std::string page = std::string(QUORUM_SOURCE_DIR) + "/docs/options.md";
+  const std::string page = (source_folder() / "docs/options.md").string();
   const std::string expected =
       "# Options of a run\n\nWhat `quorum reconstruct`, `photos`, `depth`, `fuse` and `bench` take, each the options "
       "of "

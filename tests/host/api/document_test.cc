@@ -5,7 +5,7 @@ namespace quorum {
 namespace {
 
 TEST(ApiDocument, ShowsTheExamplesAsTheyAre) {
-  const std::filesystem::path docs = std::filesystem::path(QUORUM_SOURCE_DIR) / "docs";
+  const std::filesystem::path docs = source_folder() / "docs";
   const std::string page = file_bytes(docs / "library.md");
   for (const char* example : {"ball.cc", "folder.cc", "CMakeLists.txt"}) {
     const std::string code = file_bytes(docs / "examples" / example);
