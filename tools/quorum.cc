@@ -15,6 +15,7 @@
 #include "tools/command.h"
 #include "tools/messages.h"
 #include "tools/signals.h"
+#include "tools/stacks.h"
 
 namespace {
 
@@ -107,6 +108,7 @@ int main(int argc, char** argv) {
   // Exceptions that can reach no caller, such as one in a thread of a library.
   std::set_terminate([] { end_by_exception("quorum"); });
   try {
+    if (const auto allowed = quorum::allow_stacks(); !allowed) return quorum::fail(word, allowed.error());
     return run(word, argc, argv);
   } catch (...) {
     end_by_exception(word);

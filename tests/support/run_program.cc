@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +16,8 @@
 
 namespace quorum {
 namespace {
+
+constexpr unsigned long kCapSysResource = 24;  // CAP_SYS_RESOURCE of <linux/capability.h>, which root has
 
 /// given: the setting, else path.
 void redirect(const std::string& given, const std::string& path, int descriptor) {
@@ -50,6 +53,14 @@ Program::Program(const std::filesystem::path& program, const std::vector<std::st
   if (setting.file_size_limit > 0) {
     const rlimit limit{setting.file_size_limit, setting.file_size_limit};
     ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  if (setting.stack_limit > 0) {
+    rlimit limit = {};
+    ::getrlimit(RLIMIT_STACK, &limit);
+    limit.rlim_cur = setting.stack_limit;
+    if (setting.stack_limit_stays) limit.rlim_max = setting.stack_limit;
+    ::setrlimit(RLIMIT_STACK, &limit);
+    if (setting.stack_limit_stays) ::prctl(PR_CAPBSET_DROP, kCapSysResource, 0, 0, 0);
   }
   ::execv(name.c_str(), pointers.data());
   ::_exit(127);

@@ -16,6 +16,8 @@ namespace quorum {
 struct ProgramSetting {
   std::vector<std::pair<std::string, std::string>> environment = {};  ///< added to the test's own
   std::uint64_t file_size_limit = 0;                                  ///< bytes that a file may have; 0 = no limit
+  std::uint64_t stack_limit = 0;                                      ///< bytes of a stack; 0 = no other limit
+  bool stack_limit_stays = false;                                     ///< the program may not raise it
   std::string out = {};  ///< a file for standard output, whose text is not kept then; "-" closes it
   std::string err = {};  ///< the same for standard error
 };

@@ -53,6 +53,13 @@ TEST_F(Endings, ResultsThatCannotBeWrittenAreTold) {
   }
 }
 
+TEST_F(Endings, StacksThatAreTooSmallAreRaisedOrALine) {
+  constexpr std::uint64_t kSmall = 96 << 10;  // at which a run ended by a signal
+  EXPECT_EQ(quorum_program(reconstruct({"--quiet"}), {.stack_limit = kSmall}).exit_code, 0);
+  const ProgramSetting stays = {.stack_limit = kSmall, .stack_limit_stays = true};
+  expect_failure(quorum_program({"devices"}, stays), 5, {"a stack may have 96 KiB here", "ulimit -s"});
+}
+
 TEST_F(Endings, TheLimitOnTheSizeOfFilesIsALine) {
   expect_failure(quorum_program(reconstruct({"--quiet"}), {.file_size_limit = 20 << 10}), 3,
                  {"too large", "raise the limit on file sizes"});
