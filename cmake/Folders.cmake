@@ -19,6 +19,7 @@ set(QUORUM_PACKAGES
   "JPEG    | JPEG::JPEG                                  | jpeglib.h jerror.h"
   "stb     |                                             | stb/"
   "API     | quorum_api                                  | quorum/"
+  "pybind  | pybind11::headers                           | pybind11/"
   "CLI11   | CLI11::CLI11                                | CLI/"
   "gtest   | GTest::gtest                                | gtest/")
 
@@ -47,6 +48,7 @@ set(QUORUM_FOLDERS
   "host/run           | engine host                                                  | fmt TBB"
   "host/api           | engine host host/run                                         | fmt API"
   "tools              | engine host host/run                                         | fmt TBB json CLI11"
+  "tools/python       |                                                              | API pybind"
   "tests/support      | shaders engine host                                          | Eigen fmt gtest"
   "tests/engine       | shaders engine tests/support                                 | Eigen fmt TBB json gtest heif"
   "tests/host         | shaders engine host tests/support                            | fmt gtest"

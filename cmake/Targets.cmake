@@ -22,6 +22,8 @@ set(precompiled_headers
   <optional> <span> <string> <string_view> <utility> <vector>
   <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <fmt/format.h> <oneapi/tbb/parallel_for.h>)
 
+set(warnings -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+
 # Options of a target: warnings, and float arithmetic that is never contracted or reordered, since results are compared
 # byte by byte (docs/architecture.md, "One result everywhere"). All code can go into the shared library, too (Api.cmake),
 # and is compiled once for it and for the program. None of these passes to who links the target. TEST: for code that
@@ -32,8 +34,7 @@ function(quorum_options target)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PUBLIC Eigen3::Eigen fmt::fmt)  # what headers of the engine show
   target_compile_options(${target} PRIVATE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-    -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<BOOL:${QUORUM_WERROR}>:-Werror>
+    ${warnings} -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<BOOL:${QUORUM_WERROR}>:-Werror>
     -fPIC -fvisibility=hidden -fvisibility-inlines-hidden)
   if(QUORUM_SANITIZE)
     target_compile_options(${target} PRIVATE

@@ -70,3 +70,6 @@ if(tool_tests)
 endif()
 
 include(ApiTesting)
+if(TARGET quorum_python)
+  include(PythonTesting)
+endif()
