@@ -1,5 +1,6 @@
 #include "engine/depth/small_task.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "engine/depth/plane_moves.h"
@@ -18,6 +19,12 @@ std::shared_ptr<const PaddedImage> small_image(const PaddedImage& image, int hal
 }
 
 }  // namespace
+
+bool has_small_images(const SweepTask& task) {
+  constexpr int kLeastSide = 64;
+  return task.options.is_slanted() &&
+         std::min(task.ranges.width, task.ranges.height) >= kLeastSide;
+}
 
 Camera small_camera(Camera camera, int halvings) {
   Eigen::Matrix3d half;

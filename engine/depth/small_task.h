@@ -8,6 +8,9 @@
 
 namespace quorum {
 
+/// Whether images of half and a quarter of the size help: with windows that follow tilted planes, if enough is left.
+bool has_small_images(const SweepTask& task);
+
 /// The camera of an image that was halved this often; see limit_image_size().
 Camera small_camera(Camera camera, int halvings);
 

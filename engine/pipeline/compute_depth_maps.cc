@@ -13,6 +13,7 @@
 #include "engine/depth/plane_moves.h"
 #include "engine/depth/plane_warp.h"
 #include "engine/depth/second_window.h"
+#include "engine/depth/small_task.h"
 #include "engine/io/image_store.h"
 #include "engine/pipeline/provenance.h"
 #include "engine/pipeline/view_loop.h"
@@ -25,12 +26,6 @@ namespace {
 Expected<std::shared_ptr<const PaddedImage>> load_padded(ImageStore& images, int view) {
   QUORUM_ASSIGN(auto image, images.image(view));
   return std::make_shared<const PaddedImage>(pad_image(*image));
-}
-
-/// Whether images of half and a quarter of the size help: with windows that follow tilted planes, if enough is left.
-bool has_small_images(const SweepTask& task) {
-  constexpr int kLeastSide = 64;
-  return task.options.is_slanted() && std::min(task.ranges.width, task.ranges.height) >= kLeastSide;
 }
 
 /// What is read of a view, and what is written.

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "engine/depth/depth_planes.h"
+#include "engine/depth/half_size.h"
 #include "engine/depth/second_window.h"
+#include "engine/depth/small_task.h"
 #include "engine/pipeline/compute_depth_maps.h"
 #include "engine/pipeline/cpu_backend.h"
 #include "engine/pipeline/memory_estimates.h"
@@ -33,12 +35,33 @@ struct ViewSample {
   double refine_pixels = 0.0;  // pixel · neighbor, of the small images
   double sweep_seconds = 0.0;
   double refine_seconds = 0.0;
+  // Of both passes, and of the step with images of half the size: a share that large images have, too.
+  double windows = 0.0;
+  double half_windows = 0.0;
 
+  [[nodiscard]] double half_share() const { return windows > 0 ? half_windows / windows : 0.0; }
   [[nodiscard]] double seconds_per_window() const { return sweep_windows > 0 ? sweep_seconds / sweep_windows : 0.0; }
   [[nodiscard]] double seconds_per_refinement() const {
     return refine_pixels > 0 ? refine_seconds / refine_pixels : 0.0;
   }
 };
+
+double windows_of(const SweepCounts& counts) {
+  return static_cast<double>(counts.sweep_windows) + static_cast<double>(counts.refine_windows);
+}
+
+/// Adds what images of half the size take of the view. backend: has made the map of the task.
+Expected<void> sample_half_size(const Scene& small, int view, const std::vector<int>& neighbors, const SweepTask& task,
+                                const DepthMap& map, CpuBackend& backend, ViewSample& sample) {
+  const double before = windows_of(backend.sweep_counts());
+  sample.windows += before;
+  if (!task.options.half_size || !has_small_images(task)) return {};
+  std::vector<const View*> others;
+  for (const int neighbor : neighbors) others.push_back(&small.views[static_cast<std::size_t>(neighbor)]);
+  QUORUM_TRY(backend.sweep_depth(make_half_task(task, map, small.views[static_cast<std::size_t>(view)], others)));
+  sample.half_windows += windows_of(backend.sweep_counts()) - before;
+  return {};
+}
 
 /// Adds one view. small: the scene with small images.
 Expected<void> sample_view(const Scene& scene, const Scene& small, int view, const std::vector<int>& neighbors,
@@ -69,7 +92,7 @@ Expected<void> sample_view(const Scene& scene, const Scene& small, int view, con
   sample.sweep_windows += static_cast<double>(backend.sweep_counts().sweep_windows);
   for (const StageTime& time : backend.kernel_times())
     (time.name == "sweep_depth" ? sample.sweep_seconds : sample.refine_seconds) += time.seconds;
-  return {};
+  return sample_half_size(small, view, neighbors, task, map, backend, sample);
 }
 
 Expected<ViewSample> sample_views(const Scene& scene, const std::vector<int>& views,
@@ -139,9 +162,10 @@ Expected<Plan> make_plan(const Scene& scene, const RunOptions& options) {
   plan.samples = sample.swept > 0 ? sample.samples / sample.swept : 0.0;
   const auto pixels = static_cast<double>(plan.pixels);
   const double passes = options.sweep.second_window == 0 ? 1.0 : 2.0;
-  plan.depth_seconds = passes * compared * plan.swept_share *
-                           (plan.samples * sample.seconds_per_window() + sample.seconds_per_refinement()) +
-                       kSaveSeconds * pixels;
+  const double pass =
+      compared * plan.swept_share * (plan.samples * sample.seconds_per_window() + sample.seconds_per_refinement());
+  plan.half_seconds = sample.half_share() * pass;
+  plan.depth_seconds = passes * pass + plan.half_seconds + kSaveSeconds * pixels;
   plan.confirm_seconds = options.confirm ? kConfirmSeconds * pixels : 0.0;
   plan.collect_seconds = kCollectSeconds * pixels;
   plan.merge_seconds = kMergeSeconds * pixels;

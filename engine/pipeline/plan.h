@@ -23,6 +23,7 @@ struct Plan {
   std::uint64_t disk = 0;          ///< bytes
   // CPU seconds.
   double depth_seconds = 0.0;
+  double half_seconds = 0.0;  ///< of them: images of half the size, where full size gives no depth
   double confirm_seconds = 0.0;
   double collect_seconds = 0.0;  ///< each shard of the fusion spends all of it
   double merge_seconds = 0.0;
