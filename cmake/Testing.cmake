@@ -73,3 +73,7 @@ include(ApiTesting)
 if(TARGET quorum_python)
   include(PythonTesting)
 endif()
+if(TARGET quorum_pages)
+  add_test(NAME Pages.NameEveryCommandAndOption
+    COMMAND bash ${PROJECT_SOURCE_DIR}/tests/tools/pages_test.sh $<TARGET_FILE:quorum> ${PROJECT_BINARY_DIR}/pages)
+endif()

@@ -32,6 +32,21 @@ std::string suggest_option(const CLI::App& app, int argc, char** argv) {
   return "";
 }
 
+/// The command and its options for scripts that make manual pages and completions of them (cmake/packaging): a line
+/// each, with tabs between names, what they take, their group and their help. "-" stands for nothing.
+std::string describe(const CLI::App& app) {
+  const auto or_dash = [](const std::string& text) { return text.empty() ? std::string("-") : text; };
+  std::string lines = fmt::format("{}\t-\t-\t{}\n", app.get_name(), app.get_description());
+  for (const CLI::Option* option : app.get_options()) {
+    std::string takes = option->get_option_text();
+    if (takes.empty() && option->get_items_expected_max() > 0) takes = option->get_type_name();
+    const std::string group = option->get_positional() ? "Positionals" : option->get_group();
+    lines += fmt::format("{}\t{}\t{}\t{}\n", option->get_name(option->get_positional(), true), or_dash(takes),
+                         or_dash(group), or_dash(option->get_description()));
+  }
+  return lines;
+}
+
 /// An empty word is mostly a variable of a shell that was not set: -o "$OUT".
 Expected<void> check_words(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
@@ -57,6 +72,11 @@ Expected<void> check_not_input(const std::filesystem::path& output, const std::v
 
 int run_command(CLI::App& app, int argc, char** argv, const std::function<Expected<void>()>& work) {
   set_option_speller([](std::string_view name) { return "--" + std::string(name); });
+  if (argc == 2 && std::string_view(argv[1]) == "--describe") {
+    write_result(describe(app));
+    const auto shown = flush_results();
+    return shown ? 0 : fail(app.get_name(), shown.error());
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

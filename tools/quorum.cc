@@ -57,6 +57,13 @@ std::string help() {
   return text + "\nTo begin: quorum synthesize scene && quorum reconstruct scene -o result\n";
 }
 
+/// The commands for scripts, a line each.
+std::string describe() {
+  std::string lines;
+  for (const Command& command : kCommands) lines += fmt::format("{}\t{}\n", command.name, command.summary);
+  return lines;
+}
+
 int show(std::string_view text) {
   quorum::write_result(text);
   const auto shown = quorum::flush_results();
@@ -71,6 +78,7 @@ std::string suggestion(std::string_view word) {
 
 int run(std::string_view word, int argc, char** argv) {
   if (word == "--version") return show(fmt::format("quorum {}\n", quorum::version()));
+  if (word == "--describe") return show(describe());
   if (word == "--help" || word == "-h" || (word == "help" && argc < 3)) return show(help());
   if (word == "help") {
     std::string name = argv[2];
