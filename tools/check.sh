@@ -21,6 +21,7 @@ unit() {
   target="${name#engine_}"
   target="quorum_${target#host_}"
   [[ "$name" != tools* ]] || target=quorum
+  [[ "$name" != tools_python* ]] || target=quorum_python
   target="/${target%%-*}.dir/"
   printf '#include "%s"\n' "$@" >"$unit"
   mapfile -t flags < <(grep "\"command\": .*$target" "$build/compile_commands.json" |
@@ -47,7 +48,9 @@ check_tidy() {
   mkdir -p build/check
   export -f unit
   export build
-  for folder in tools host host/run host/api engine/*; do echo "$folder"; done |
+  local python=()
+  ! grep -q /quorum_python.dir/ "$build/compile_commands.json" || python=(tools/python)
+  for folder in tools "${python[@]}" host host/run host/api engine/*; do echo "$folder"; done |
     xargs -P "$(nproc)" -I{} bash -c 'files=({}/*.cc) && name={} && unit "${name//\//_}" "${files[@]}"'
 }
 
