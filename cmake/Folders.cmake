@@ -54,7 +54,7 @@ set(QUORUM_FOLDERS
   "tests/host         | shaders engine host tests/support                            | fmt gtest"
   "tests/parity       | shaders engine host tests/support                            | fmt gtest"
   "tests/tools        | engine tests/support                                         | fmt json gtest"
-  "tests/host/api     | engine tests/support tests/tools                             | fmt gtest json API"
+  "tests/host/api     | engine tests/support tests/tools                             | Eigen fmt gtest json API"
   "tests/fuzz         | engine                                                       | ")
 
 # Reads a row of either table into <out>_name, <out>_first and <out>_second, the last two as lists.
