@@ -20,6 +20,13 @@ py::str text_of(std::string_view bytes) {
 }  // namespace quorum_python
 
 PYBIND11_MODULE(_quorum, module) {
+  pybind11::register_local_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const pybind11::cast_error&) {
+      PyErr_SetString(PyExc_TypeError, "an argument, or what a callback gave, has another type; see help(quorum)");
+    }
+  });
   module.attr("__version__") = quorum::version();
   quorum_python::bind_options(module);
   quorum_python::bind_scene(module);

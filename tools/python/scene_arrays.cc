@@ -115,7 +115,10 @@ void add_views(const GivenArrays& given, quorum::SceneArrays& arrays, std::vecto
   if (!given.depth_ranges.is_none()) depths.emplace(given.depth_ranges, "depth_ranges", count, std::vector{2L}, true);
   for (std::size_t i = 0; i < count; ++i) {
     quorum::ViewArrays view;
-    if (!names.empty()) view.name = py::cast<std::string>(names[i].attr("encode")("utf-8", "surrogateescape"));
+    if (!names.empty()) {
+      if (!PyUnicode_Check(names[i].ptr())) refuse(place_of("names", i) + ": is no str");
+      view.name = py::cast<std::string>(names[i].attr("encode")("utf-8", "surrogateescape"));
+    }
     view.image = pixels_of(images[i], place_of("images", i), kept);
     view.image.is_bgr = given.bgr;
     if (!masks.empty() && !masks[i].is_none()) view.mask = pixels_of(masks[i], place_of("masks", i), kept);

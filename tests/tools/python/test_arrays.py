@@ -50,6 +50,7 @@ def refused(match, kind=ErrorKind.INPUT):
         ("neighbor_lists", [[7], [], []], "neighbor 7 is no other view"),
         ("neighbor_lists", [["a"], [], []], r"neighbor_lists\[0\]"),
         ("names", ["a", "a", "b"], "a"),
+        ("names", [1, 2, 3], r"names\[0\]: is no str"),
         ("names", ["a\n", "c", "b"], "control characters"),
     ],
 )
@@ -164,6 +165,21 @@ def test_views_are_found_by_place_and_name(results):
             results.depth_map(wrong)
     with pytest.raises(KeyError, match="view0009"):
         results.depth_map("view0009")
+
+
+def test_arguments_of_another_type_are_type_errors(flat, results):
+    scene = quorum.Scene.from_arrays(**flat)
+    for call in (
+        lambda: results.depth_map(1.5),
+        lambda: results.has_depth_map(None),
+        lambda: quorum.reconstruct(5),
+        lambda: quorum.reconstruct(scene, neighbors=2**70),
+        lambda: quorum.reconstruct(scene, tile=["wide", 3]),
+        lambda: quorum.reconstruct(scene, "out", "mesh"),
+        lambda: quorum.Scene.from_arrays(flat["images"]),
+    ):
+        with pytest.raises(TypeError):
+            call()
 
 
 def test_maps_that_were_not_written_are_none(ball):

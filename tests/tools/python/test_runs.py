@@ -140,8 +140,10 @@ def grown(call, count=1000):
     return resident() - before
 
 
-def test_a_thousand_calls_keep_nothing(flat, results, monkeypatch):
-    """A map is 0.5 MiB and a mesh 0.4, so that one kept in 200 calls would show."""
+def test_a_thousand_calls_keep_nothing(flat, ball, monkeypatch):
+    """A map takes 0.44 MiB and a mesh 0.07, so that one kept in 25 calls would show."""
+    results = quorum.reconstruct(ball.scene(), voxel_size=0.06, **DRAFT)
+    assert results.mesh().vertices.nbytes > 10_000
 
     def refuse():
         with pytest.raises(quorum.Error):
