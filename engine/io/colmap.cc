@@ -23,9 +23,13 @@ Expected<fs::path> find_images(const fs::path& folder, const fs::path& model, co
   if (!given.empty()) return given;
   fs::path best;
   std::ptrdiff_t most = 0;
+  const fs::path above = model.parent_path().parent_path();
+  // Gaussian splatting keeps the photographs of a distorted model in input, and others of the same names in images.
+  const bool is_distorted = above.filename() == "distorted" || model.parent_path().filename() == "distorted";
   for (const fs::path& candidate :
-       {folder / "images", folder, model / "images", model.parent_path() / "images",
-        model.parent_path().parent_path() / "images", folder / "images_2", folder / "images_4", folder / "images_8"}) {
+       {is_distorted ? folder / "input" : folder / "images", folder / "images", folder, model / "images",
+        model.parent_path() / "images", above / "images", above.parent_path() / "images", folder / "images_2",
+        folder / "images_4", folder / "images_8"}) {
     if (most > 0 && candidate.parent_path() == folder && candidate.filename().string().starts_with("images_")) break;
     std::error_code ignored;
     if (!fs::is_directory(candidate, ignored)) continue;
@@ -78,13 +82,17 @@ const ColmapCameraModel& pinhole_model() {
 
 std::vector<ColmapModelFolder> list_colmap_models(const fs::path& folder) {
   std::vector<ColmapModelFolder> models;
-  for (const fs::path& parent : {folder / "sparse", folder}) {
+  const fs::path of_nerfstudio = folder / "colmap" / "sparse";
+  const fs::path of_splatting = folder / "distorted" / "sparse";
+  for (const fs::path& parent : {folder / "sparse", folder, of_nerfstudio, of_splatting}) {
     std::vector<fs::path> candidates = {parent};
     std::error_code code;
     for (fs::directory_iterator entry(parent, code); !code && entry != fs::directory_iterator(); entry.increment(code))
       if (std::error_code ignored; entry->is_directory(ignored)) candidates.push_back(entry->path());
     for (const fs::path& candidate : candidates)
-      if (!colmap_model_kind(candidate).empty()) models.push_back({candidate, count_colmap_images(candidate)});
+      if (!colmap_model_kind(candidate).empty())
+        models.push_back(
+            {candidate, count_colmap_images(candidate), parent == of_nerfstudio || parent == of_splatting});
     if (!models.empty()) break;
   }
   std::ranges::sort(models, [](const ColmapModelFolder& a, const ColmapModelFolder& b) {

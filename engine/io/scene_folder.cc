@@ -184,8 +184,10 @@ Expected<SceneFormat> recognize_format(const fs::path& folder) {
   if (!fs::exists(status)) return path_failure(folder, "no such folder; check the path");
   if (!fs::is_directory(status)) return path_failure(folder, "is a file, expected the folder of a scene");
   if (holds_file_that_ends_with(folder, "_par.txt")) return SceneFormat::kMiddlebury;
-  if (!find_colmap_model(folder).empty()) return SceneFormat::kColmap;
-  if (fs::is_regular_file(folder / "transforms.json", ignored)) return SceneFormat::kTransforms;
+  const bool has_transforms = fs::is_regular_file(folder / "transforms.json", ignored);
+  const auto models = list_colmap_models(folder);
+  if (!models.empty() && !(has_transforms && models.front().is_of_other_program)) return SceneFormat::kColmap;
+  if (has_transforms) return SceneFormat::kTransforms;
   if (fs::is_directory(folder / "cams", ignored)) return SceneFormat::kMvsnet;
   if (!find_bundle(folder).empty()) return SceneFormat::kBundler;
   for (const SfmFormat& format : sfm_formats())

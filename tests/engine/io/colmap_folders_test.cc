@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/io/image_file.h"
+#include "engine/io/scene_folder.h"
 #include "tests/engine/io/colmap_test.h"
 #include "tests/engine/io/io_test.h"
 
@@ -24,6 +25,32 @@ TEST_F(ColmapFolders, ModelIsFoundWhereItUsuallyStands) {
   EXPECT_EQ(find_colmap_model(folder_.path()), path("sparse/0"));
   EXPECT_TRUE(read());
   EXPECT_TRUE(read_colmap(path("sparse/0"), {})) << "images two folders above the model";
+}
+
+TEST_F(ColmapFolders, ModelIsFoundWhereNerfstudioAndGaussianSplattingKeepIt) {
+  for (const char* kept : {"colmap", "distorted"}) {
+    const TemporaryFolder folder;
+    write_colmap_scene(folder.path(), make_colmap_model("OPENCV"));
+    fs::create_directories(folder.path() / kept / "sparse");
+    fs::rename(folder.path() / "sparse", folder.path() / kept / "sparse/0");
+    EXPECT_EQ(recognize_format(folder.path()), SceneFormat::kColmap);
+    const auto scene = read_scene(folder.path(), {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->views.size(), 4U);
+    EXPECT_EQ(scene->views[0].image_path, folder.path() / "images/a.png");
+    EXPECT_TRUE(read_colmap(folder.path(), {}, fs::path(kept) / "sparse/0"));
+    EXPECT_TRUE(read_colmap(folder.path() / kept, {})) << "photographs beside the folder";
+    write_text(folder.path() / "transforms.json", "{}");
+    EXPECT_EQ(recognize_format(folder.path()), SceneFormat::kTransforms) << "made of that model";
+  }
+}
+
+TEST_F(ColmapFolders, ADistortedModelHasItsPhotographsInInput) {
+  write(make_colmap_model("OPENCV"));
+  fs::create_directories(path("distorted/sparse"));
+  fs::rename(path("sparse"), path("distorted/sparse/0"));
+  fs::copy(path("images"), path("input"));
+  EXPECT_EQ(read().value().views[1].image_path, path("input/b.png")) << "those in images are without distortion";
 }
 
 TEST_F(ColmapFolders, LargestOfSeveralModelsIsTakenAndSaid) {
