@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 
 namespace quorum {
 namespace {
@@ -41,10 +42,8 @@ fs::path by_end(const fs::path& folder, const fs::path& path) {
   return {};
 }
 
-}  // namespace
-
-fs::path find_photograph(const fs::path& folder, const std::string& name) {
-  if (name.empty()) return {};
+/// As a scene says the name, but for escapes.
+fs::path find_as_said(const fs::path& folder, const std::string& name) {
   if (fs::path found = with_like_extension(folder / name); !found.empty()) return found;
   std::string slashed = name;
   std::ranges::replace(slashed, '\\', '/');
@@ -53,11 +52,41 @@ fs::path find_photograph(const fs::path& folder, const std::string& name) {
   return slashed != name ? with_like_extension(folder / slashed) : fs::path();
 }
 
+/// The path that a URI stands for; the name itself if it is none, or an escape stands for a control character.
+std::string without_escapes(const std::string& name) {
+  constexpr std::string_view kScheme = "file:";
+  std::string path;
+  for (std::size_t at = name.starts_with("file:/") ? kScheme.size() : 0; at < name.size(); ++at) {
+    auto byte = static_cast<unsigned char>(name[at]);
+    if (byte == '%' && at + 2 < name.size()) {
+      const char* const end = name.data() + at + 3;
+      if (const auto [stop, error] = std::from_chars(name.data() + at + 1, end, byte, 16);
+          error == std::errc() && stop == end) {
+        if (byte < 0x20 || byte == 0x7f) return name;
+        at += 2;
+      }
+    }
+    path += static_cast<char>(byte);
+  }
+  return path;
+}
+
+}  // namespace
+
+fs::path find_photograph(const fs::path& folder, const std::string& name) {
+  if (name.empty()) return {};
+  if (fs::path found = find_as_said(folder, name); !found.empty()) return found;
+  const std::string path = without_escapes(name);
+  return path != name && !path.empty() ? find_as_said(folder, path) : fs::path();
+}
+
 fs::path find_photograph_by_end(const fs::path& folder, const std::string& name) {
   if (fs::path found = find_photograph(folder, name); !found.empty()) return found;
-  std::string slashed = name;
-  std::ranges::replace(slashed, '\\', '/');
-  return by_end(folder, fs::path(slashed).lexically_normal());
+  for (std::string path : {name, without_escapes(name)}) {
+    std::ranges::replace(path, '\\', '/');
+    if (fs::path found = by_end(folder, fs::path(path).lexically_normal()); !found.empty()) return found;
+  }
+  return {};
 }
 
 }  // namespace quorum
