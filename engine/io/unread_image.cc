@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/io/file_hole.h"
+#include "engine/io/heif_file.h"
 #include "engine/io/jpeg_flaw.h"
+#include "engine/io/tiff_flaw.h"
 #include "engine/io/view_names.h"
 
 namespace quorum {
@@ -27,15 +30,30 @@ constexpr Beginning kBeginnings[] = {
     {"%PDF", "is a PDF file; give the photograph itself"},
     {"version https://git-lfs", "is a pointer of Git LFS in place of the photograph; get it with git lfs pull"}};
 
+constexpr std::string_view kRemedy = "copy it again, or save it anew if it looks whole";
+
+std::string damaged_from(int row, int height) {
+  if (row == 0) return fmt::format("is damaged within the picture; {}", kRemedy);
+  return fmt::format("is damaged within the picture, from about row {} of {} on; {}", row, height, kRemedy);
+}
+
 /// Of a JPEG file; empty if it is whole, maybe but for the marker behind it.
 std::string why_not_whole(std::string_view jpeg) {
-  constexpr std::string_view kRemedy = "copy it again, or save it anew if it looks whole";
   const JpegFlaw flaw = find_jpeg_flaw(jpeg);
   if (flaw.kind == JpegFlaw::Kind::kCut)
     return fmt::format("ends too early, and its lower part would be gray; {}", kRemedy);
-  if (flaw.kind != JpegFlaw::Kind::kDamaged) return {};
-  if (flaw.row == 0) return fmt::format("is damaged within the picture; {}", kRemedy);
-  return fmt::format("is damaged within the picture, from about row {} of {} on; {}", flaw.row, flaw.height, kRemedy);
+  return flaw.kind == JpegFlaw::Kind::kDamaged ? damaged_from(flaw.row, flaw.height) : std::string();
+}
+
+/// Of the other kinds, whose decoders tell of less.
+std::string why_with_holes(std::string_view bytes) {
+  if (const auto begin = find_hole(bytes))
+    return fmt::format(
+        "holds zeros in place of the picture from byte {} on; copy it again, or save it as PNG if it "
+        "looks whole",
+        *begin);
+  const auto flaw = find_tiff_flaw(bytes);
+  return flaw ? damaged_from(flaw->row, flaw->height) : std::string();
 }
 
 }  // namespace
@@ -44,11 +62,12 @@ std::string why_unread(const std::filesystem::path& path, std::string_view bytes
   for (const Beginning& beginning : kBeginnings)
     if (bytes.starts_with(beginning.bytes)) return std::string(beginning.remedy);
   const bool is_jpeg = bytes.starts_with("\xff\xd8");
-  if (!is_jpeg && !bytes.starts_with("\x89PNG") &&
-      std::ranges::count(kRawEndings, folded(path.extension().string())) > 0)
+  const bool is_png = bytes.starts_with("\x89PNG");
+  if (!is_jpeg && !is_png && std::ranges::count(kRawEndings, folded(path.extension().string())) > 0)
     return "is a raw photograph; develop all of them to TIFF, PNG or JPEG of the same size (darktable-cli, "
            "rawtherapee-cli)";
-  return is_whole && is_jpeg ? why_not_whole(bytes) : std::string();
+  if (!is_whole || is_png || is_heif(bytes)) return {};  // PNG has checksums, which its decoder asks
+  return is_jpeg ? why_not_whole(bytes) : why_with_holes(bytes);
 }
 
 }  // namespace quorum
