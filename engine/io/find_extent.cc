@@ -1,12 +1,20 @@
 #include "engine/io/find_extent.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/core/option.h"
 #include "engine/depth/coarse_sweep.h"
 #include "engine/io/image_store.h"
+#include "engine/io/view_list.h"
 #include "engine/scene/limit_image_size.h"
+#include "engine/scene/local_frame.h"
 #include "engine/scene/scene_bounds.h"
+#include "engine/scene/stray_views.h"
 
 namespace quorum {
 namespace {
@@ -35,9 +43,8 @@ bool stands_in(const View& view, const Bounds& box) {
   return (center.array() >= box.low.array()).all() && (center.array() <= box.high.array()).all();
 }
 
-}  // namespace
-
-Expected<void> find_extent(Scene& scene) {
+/// Bounds and ranges of the scene as it is.
+Expected<void> find_extent_of_all(Scene& scene) {
   if (const auto known = find_bounds(scene)) {
     scene.bounds = *known;
     return {};
@@ -54,6 +61,40 @@ Expected<void> find_extent(Scene& scene) {
   scene.bounds = small.bounds;
   for (std::size_t view = 0; view < scene.views.size(); ++view) take_range(small.views[view], scene.views[view]);
   return {};
+}
+
+/// "2 of 6 cameras stand more than 100 times as far away as the others reach, as wrong poses put them: a.png, b.png".
+std::string tell_stray(const Scene& scene, const std::vector<int>& stray, double far) {
+  std::vector<std::string> names;
+  for (const int view : stray) names.push_back(scene.views[static_cast<std::size_t>(view)].image_name);
+  return fmt::format(
+      "{} of {} cameras stand more than {} times as far away as the others reach, as wrong poses put them: {}",
+      stray.size(), scene.views.size(), far, names_in_short(names));
+}
+
+/// Leaves these views out, if the others have an extent.
+bool find_extent_without(Scene& scene, const std::vector<int>& stray, double far) {
+  if (stray.empty() || scene.views.size() < stray.size() + 3) return false;
+  Scene rest = scene;
+  leave_out(rest, stray);
+  enter_local_frame(rest);
+  if (!find_extent_of_all(rest)) return false;
+  rest.notes.push_back(tell_stray(scene, stray, far) + "; they are left out");
+  scene = std::move(rest);
+  return true;
+}
+
+}  // namespace
+
+Expected<void> find_extent(Scene& scene) {
+  constexpr double kAbsurd = 30.0;  // a box that holds such a camera's view, too, is none
+  constexpr double kFar = 5.0;      // where there is none otherwise
+  if (scene.points.empty() && find_extent_without(scene, stray_views(scene, kAbsurd), kAbsurd)) return {};
+  const auto found = find_extent_of_all(scene);
+  if (found) return {};
+  const std::vector<int> stray = stray_views(scene, kFar);
+  if (stray.empty() || find_extent_without(scene, stray, kFar)) return stray.empty() ? found : Expected<void>();
+  return failure(found.error().kind, found.error().message + "; " + tell_stray(scene, stray, kFar));
 }
 
 Expected<void> find_ranges_inside(Scene& scene) {

@@ -7,8 +7,9 @@
 namespace quorum {
 
 /// Sets the bounds: find_bounds, and where that knows none, those of the points of a coarse_sweep, which also give
-/// depth ranges. The points themselves are not kept. Fails (kInput) if neither finds enough, or a photograph can't be
-/// read.
+/// depth ranges. The points themselves are not kept. Without points, cameras thirty times as far away as the others
+/// reach (stray_views), or five times where nothing is found with them, are left out if the others have an extent,
+/// which a note tells. Fails (kInput) if nothing is found, or a photograph can't be read.
 Expected<void> find_extent(Scene& scene);
 
 /// Sets the depth ranges of the views whose cameras stand in the bounds, where the box says little, to those of the

@@ -47,7 +47,7 @@ void enter_local_frame(Scene& scene) {
   const Eigen::Vector3d offset = far_offset(middle, extent);
   if (offset.isZero(0.0)) return;  // which leaves every bit of the scene as it is
   move(scene, -offset);
-  scene.offset = offset;
+  scene.offset += offset;
 }
 
 Bounds in_local_frame(const Bounds& box, const Scene& scene) {

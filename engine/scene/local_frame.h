@@ -11,8 +11,8 @@ namespace quorum {
 /// origin is near enough for single precision, or all lies in one place, else a round number near the middle.
 Eigen::Vector3d far_offset(const Eigen::Vector3d& middle, double extent);
 
-/// Takes the offset off a scene as its files give it, cameras and points, and keeps it in Scene::offset. Bounds are
-/// not touched: they are not known yet.
+/// Takes the offset off a scene as its files give it, cameras and points, and adds it to Scene::offset. Bounds are not
+/// touched: they are not known yet.
 void enter_local_frame(Scene& scene);
 
 /// A box of the scene's files, or of its user, in the frame of the scene.

@@ -55,6 +55,58 @@ TEST(FindExtent, OfAnOrbitNeedsNoPhotographs) {
   EXPECT_EQ(scene.views[0].far_depth, 0.0);
 }
 
+void put(View& view, const Eigen::Vector3d& center) {
+  view.camera.translation = -view.camera.camera_from_world * center;
+}
+
+TEST(FindExtent, LeavesOutCamerasFarFromAllOthersAndSaysSo) {
+  const TemporaryFolder folder;
+  const Scene scene = with_photographs(small_images(strip(6)), on_ground, folder);
+  Scene expected = scene;
+  expected.views.resize(4);
+  ASSERT_TRUE(find_extent(expected));
+  for (const double far : {60.0, 1e4, 1e9}) {
+    Scene wrong = scene;
+    put(wrong.views[4], {far, -far, far});
+    put(wrong.views[5], {0, far, -2 * far});
+    wrong.views[5].image_name = "f.png";
+    const auto found = find_extent(wrong);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(wrong.views.size(), 4U);
+    EXPECT_EQ(wrong.bounds.low, expected.bounds.low);
+    EXPECT_EQ(wrong.bounds.high, expected.bounds.high);
+    ASSERT_EQ(wrong.notes.size(), 1U);
+    EXPECT_NE(wrong.notes[0].find("2 of 6 cameras"), std::string::npos) << wrong.notes[0];
+    EXPECT_NE(wrong.notes[0].find("f.png; they are left out"), std::string::npos) << wrong.notes[0];
+  }
+}
+
+TEST(FindExtent, OfACameraFarAwayThatLooksAtTheOthersIsThatOfTheOthers) {
+  const TemporaryFolder folder;
+  const Scene scene = with_photographs(small_images(strip(6)), on_ground, folder);
+  Scene expected = scene;
+  expected.views.pop_back();
+  ASSERT_TRUE(find_extent(expected));
+  Scene wrong = scene;
+  wrong.views[5].camera.camera_from_world = looking(180);
+  put(wrong.views[5], {5e3, 0, 8});
+  ASSERT_TRUE(find_extent(wrong));
+  EXPECT_EQ(wrong.views.size(), 5U);
+  EXPECT_EQ(wrong.bounds.high, expected.bounds.high) << "not one that holds what the far one sees";
+}
+
+TEST(FindExtent, NamesFarCamerasWhereTooFewAreLeft) {
+  const TemporaryFolder folder;
+  Scene scene = with_photographs(small_images(strip(3)), on_ground, folder);
+  put(scene.views[1], {1e5, 0, 0});
+  scene.views[1].image_name = "far.png";
+  const auto found = find_extent(scene);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().kind, ErrorKind::kInput);
+  for (const char* part : {"1 of 3 cameras", "far.png", "wrong poses", "bounds"})
+    EXPECT_NE(found.error().message.find(part), std::string::npos) << found.error().message;
+}
+
 TEST(FindRangesInside, GivesThemToCamerasThatStandInTheBox) {
   const TemporaryFolder folder;
   Scene scene = with_photographs(small_images(room(30), 6), on_walls, folder);
