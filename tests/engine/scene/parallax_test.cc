@@ -139,6 +139,18 @@ TEST(SelectByParallax, IsTheSameAtAnyScaleAndPlace) {
   }
 }
 
+TEST(ParallaxScore, AsksTheMiddleHalfOfEachRay) {
+  // The reference looks along x through a box of 16. Another view shows what is nearer than a quarter of that.
+  const Scene scene{
+      {view_from({0, 0, 0}, looking(0)), view_from({1, -3, 0}, looking(90)), view_from({0, 2, 0}, looking(0))},
+      {{0, -8, -8}, {16, 8, 8}}};
+  EXPECT_EQ(neighbors_of(scene, 0), (std::vector<int>{2, 1})) << "points near the camera are enough to be taken";
+  EXPECT_EQ(parallax_score(scene, 0, {1}, 90.0), 0.0);
+  EXPECT_GT(parallax_score(scene, 0, {2}, 90.0), 1.0);
+  EXPECT_EQ(parallax_score(scene, 0, {1, 2}, 90.0), parallax_score(scene, 0, {2}, 90.0));
+  EXPECT_EQ(parallax_score(scene, 0, {}, 90.0), 0.0);
+}
+
 TEST(IsCopy, IsEveryViewButTheFirstWithOneContentFromOnePlace) {
   Scene scene = orbit(6);
   scene.views.push_back(scene.views[2]);
