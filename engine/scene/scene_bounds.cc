@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,17 +20,24 @@ double quantile(std::vector<double>& values, double fraction) {
   return values[static_cast<std::size_t>(place)];
 }
 
+/// Where most points lie in a wall or on the ground, the middle half of them has next to no extent across; what stands
+/// off it is kept as far as the longest side tells.
 Bounds robust_box(const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kLeastSpread = 0.25;  // of the longest one
   Bounds box;
+  Bounds middle_half;
+  std::array<std::vector<double>, 3> values;
   for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> values;
-    values.reserve(points.size());
-    for (const Eigen::Vector3d& point : points) values.push_back(point(axis));
-    const double quarter = quantile(values, 0.25);
-    const double three_quarters = quantile(values, 0.75);
-    const double reach = 3.0 * (three_quarters - quarter);
-    box.low(axis) = std::max(quantile(values, 0.01), quarter - reach);
-    box.high(axis) = std::min(quantile(values, 0.99), three_quarters + reach);
+    for (const Eigen::Vector3d& point : points) values[static_cast<std::size_t>(axis)].push_back(point(axis));
+    middle_half.low(axis) = quantile(values[static_cast<std::size_t>(axis)], 0.25);
+    middle_half.high(axis) = quantile(values[static_cast<std::size_t>(axis)], 0.75);
+  }
+  const Eigen::Vector3d spread = middle_half.size().cwiseMax(kLeastSpread * middle_half.size().maxCoeff());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double>& along = values[static_cast<std::size_t>(axis)];
+    const double reach = 3.0 * spread(axis);
+    box.low(axis) = std::max(quantile(along, 0.01), middle_half.low(axis) - reach);
+    box.high(axis) = std::min(quantile(along, 0.99), middle_half.high(axis) + reach);
   }
   return box.expanded(kMargin * box.size().maxCoeff());
 }

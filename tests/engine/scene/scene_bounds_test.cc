@@ -57,6 +57,15 @@ TEST(FindBounds, BoxOfThePointsIsRobust) {
   }
 }
 
+TEST(FindBounds, KeepsWhatStandsOffAWallThatHoldsMostPoints) {
+  Scene scene = ring(3);
+  scene.points = points_in_box(1000, 0);
+  for (std::size_t i = 0; i < 850; ++i) scene.points[i].position.x() = 1.0;
+  const Bounds box = find_bounds(scene).value();
+  EXPECT_LT(box.low.x(), -0.5);
+  EXPECT_GT(box.high.x(), 1.0);
+}
+
 TEST(FindBounds, PointsOfTwoViewsCountOnlyWhereThereAreNoOthers) {
   Scene scene = ring(3);
   scene.points = points_in_box(1000, 0);
