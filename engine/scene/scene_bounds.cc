@@ -20,10 +20,12 @@ double quantile(std::vector<double>& values, double fraction) {
   return values[static_cast<std::size_t>(place)];
 }
 
-/// Where most points lie in a wall or on the ground, the middle half of them has next to no extent across; what stands
-/// off it is kept as far as the longest side tells.
+/// Three times the middle half of the points beyond it, on each axis. Where most points lie in a wall or on the ground,
+/// that half has next to no extent across; what stands off it is kept as far as the longest side tells, if it is more
+/// than a few mistakes.
 Bounds robust_box(const std::vector<Eigen::Vector3d>& points) {
   constexpr double kLeastSpread = 0.25;  // of the longest one
+  constexpr double kMany = 0.05;         // points that are no mistakes
   Bounds box;
   Bounds middle_half;
   std::array<std::vector<double>, 3> values;
@@ -32,12 +34,16 @@ Bounds robust_box(const std::vector<Eigen::Vector3d>& points) {
     middle_half.low(axis) = quantile(values[static_cast<std::size_t>(axis)], 0.25);
     middle_half.high(axis) = quantile(values[static_cast<std::size_t>(axis)], 0.75);
   }
-  const Eigen::Vector3d spread = middle_half.size().cwiseMax(kLeastSpread * middle_half.size().maxCoeff());
+  const Eigen::Vector3d spread = middle_half.size();
+  const double least_spread = kLeastSpread * spread.maxCoeff();
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double>& along = values[static_cast<std::size_t>(axis)];
     const double reach = 3.0 * spread(axis);
-    box.low(axis) = std::max(quantile(along, 0.01), middle_half.low(axis) - reach);
-    box.high(axis) = std::min(quantile(along, 0.99), middle_half.high(axis) + reach);
+    const double least_reach = std::max(reach, 3.0 * least_spread);
+    const bool many_below = quantile(along, kMany) < middle_half.low(axis) - reach;
+    const bool many_above = quantile(along, 1.0 - kMany) > middle_half.high(axis) + reach;
+    box.low(axis) = std::max(quantile(along, 0.01), middle_half.low(axis) - (many_below ? least_reach : reach));
+    box.high(axis) = std::min(quantile(along, 0.99), middle_half.high(axis) + (many_above ? least_reach : reach));
   }
   return box.expanded(kMargin * box.size().maxCoeff());
 }
