@@ -22,8 +22,7 @@ std::shared_ptr<const PaddedImage> small_image(const PaddedImage& image, int hal
 
 bool has_small_images(const SweepTask& task) {
   constexpr int kLeastSide = 64;
-  return task.options.is_slanted() &&
-         std::min(task.ranges.width, task.ranges.height) >= kLeastSide;
+  return task.options.is_slanted() && std::min(task.ranges.width, task.ranges.height) >= kLeastSide;
 }
 
 Camera small_camera(Camera camera, int halvings) {
