@@ -91,7 +91,7 @@ Expected<void> find_extent(Scene& scene) {
   constexpr double kFar = 5.0;      // where there is none otherwise
   if (scene.points.empty() && find_extent_without(scene, stray_views(scene, kAbsurd), kAbsurd)) return {};
   const auto found = find_extent_of_all(scene);
-  if (found) return {};
+  if (found || found.error().kind != ErrorKind::kInput) return found;
   const std::vector<int> stray = stray_views(scene, kFar);
   if (stray.empty() || find_extent_without(scene, stray, kFar)) return stray.empty() ? found : Expected<void>();
   return failure(found.error().kind, found.error().message + "; " + tell_stray(scene, stray, kFar));
