@@ -15,7 +15,8 @@ add_library(quorum_api SHARED ${api_sources})
 add_library(Quorum::quorum ALIAS quorum_api)
 quorum_options(quorum_api)
 # Others see the headers alone: nothing of the engine, whose names these would clash with.
-set_target_properties(quorum_api PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "" INTERFACE_LINK_LIBRARIES "")
+set_target_properties(quorum_api PROPERTIES
+  INTERFACE_INCLUDE_DIRECTORIES "" INTERFACE_LINK_LIBRARIES "" UNITY_BUILD ON)
 set_property(TARGET quorum_api PROPERTY INTERFACE_COMPILE_FEATURES cxx_std_20)
 target_compile_definitions(quorum_api PRIVATE QUORUM_API_APART $<$<BOOL:${QUORUM_VULKAN}>:QUORUM_HAS_VULKAN>)
 target_sources(quorum_api PUBLIC FILE_SET HEADERS BASE_DIRS host/api FILES ${api_headers})

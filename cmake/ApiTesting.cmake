@@ -1,8 +1,9 @@
 # Tests of the library: as it is called, and as it is installed.
 file(GLOB api_tests CONFIGURE_DEPENDS tests/host/api/*.cc)
 quorum_test(api_tests ${api_tests})
+target_sources(api_tests PRIVATE tests/support/vulkan_leaks.cc)
 target_link_libraries(api_tests PRIVATE quorum_api)
-target_compile_definitions(api_tests PRIVATE QUORUM_API_APART QUORUM_PROGRAM="$<TARGET_FILE:quorum>")
+target_compile_definitions(api_tests PRIVATE QUORUM_API_APART)
 add_dependencies(api_tests quorum)
 
 set(api_test_folder ${PROJECT_SOURCE_DIR}/tests/host/api)

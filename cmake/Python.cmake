@@ -17,6 +17,7 @@ endif()
 file(GLOB python_sources CONFIGURE_DEPENDS tools/python/*.cc)
 Python3_add_library(quorum_python MODULE WITH_SOABI ${python_sources})
 target_compile_features(quorum_python PRIVATE cxx_std_20)
+set_target_properties(quorum_python PROPERTIES UNITY_BUILD ON)
 target_include_directories(quorum_python PRIVATE ${PROJECT_SOURCE_DIR})
 target_compile_options(quorum_python PRIVATE
   ${warnings} $<$<BOOL:${QUORUM_WERROR}>:-Werror> -fvisibility=hidden -fvisibility-inlines-hidden)

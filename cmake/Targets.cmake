@@ -52,7 +52,7 @@ function(quorum_options target)
   if(option_TEST)
     # Where so little is optimized, GCC 12 finds these in the standard library's strings.
     target_compile_options(${target} PRIVATE
-      $<$<CONFIG:Release>:-O1> -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
+      $<$<CONFIG:Release>:-O1> -UNDEBUG -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
     set(first quorum_test_support)
     list(APPEND headers <gtest/gtest.h>)
   endif()
@@ -86,19 +86,16 @@ function(quorum_link target folder)
   endforeach()
 endfunction()
 
-# Folders whose files are compiled eight at a time, since what they include takes longer than they do: their names in
-# anonymous namespaces differ. The others have names twice, or kernels that take long by themselves.
-set(folders_in_batches
-  engine/camera engine/volume engine/render engine/synthetic engine/pipeline engine/bench engine/experiment engine/report
-  engine/conformance host)
+# Files of a folder are compiled eight at a time, since what they include takes longer than they do. So names in anonymous
+# namespaces differ within a folder. A file that takes long by itself stays alone, so that others go on beside it.
+set(slow_files engine/depth/sweep_tile.cc)
 
 # Makes <target>, the library of a folder.
 function(quorum_library target folder)
   file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cc)
   add_library(${target} STATIC ${sources})
-  if(folder IN_LIST folders_in_batches)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
-  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+  set_source_files_properties(${slow_files} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   quorum_options(${target})
   quorum_link(${target} ${folder})
 endfunction()

@@ -11,31 +11,19 @@
 
 namespace quorum {
 
-/// What CLI11 needs of an option: usual is the value where the flag is not given.
-struct Flag {
-  std::string name;
-  std::string values;
-  std::string usual;
-  std::string help;
-  std::string group;
-  int least_words = 1;
-  int most_words = 1;
-  std::function<Expected<void>(const std::vector<std::string>&)> take;
-};
-void add_flag(CLI::App& app, const Flag& flag);
-
-/// Adds an option of options, which outlive app; its value there is what is told as the default.
+/// Adds an option of options, which outlive line; its value there is what is told as the default.
 template <typename Options>
-void add_option(CLI::App& app, Options& options, const Option<Options>& option, std::string_view group = "Options") {
-  add_flag(app, {option.given_name(), option.values, option.most_words > 0 ? option.text(options) : std::string(),
+void add_option(CommandLine& line, Options& options, const Option<Options>& option,
+                std::string_view group = "Options") {
+  line.add_flag({option.given_name(), option.values, option.most_words > 0 ? option.text(options) : std::string(),
                  option.help, std::string(group), option.least_words, option.most_words,
                  [&options, option](const std::vector<std::string>& words) { return option.parse(options, words); }});
 }
 
 /// Adds the options of a run of these stages, but those named in without.
-void add_run_options(CLI::App& app, RunOptions& options, const std::vector<RunStage>& stages,
+void add_run_options(CommandLine& line, RunOptions& options, const std::vector<RunStage>& stages,
                      const std::vector<std::string_view>& without = {});
 /// Adds the options of a run of these names.
-void add_named_options(CLI::App& app, RunOptions& options, const std::vector<std::string_view>& names);
+void add_named_options(CommandLine& line, RunOptions& options, const std::vector<std::string_view>& names);
 
 }  // namespace quorum

@@ -55,16 +55,16 @@ Expected<void> run_bench(BenchArguments& arguments) {
 }  // namespace
 
 int bench_command(int argc, char** argv) {
-  CLI::App app("Measure what each stage costs on this machine, beside the least that its work takes.", "bench");
+  CommandLine line("Measure what each stage costs on this machine, beside the least that its work takes.", "bench");
   BenchArguments arguments;
-  app.add_option("scene", arguments.run.scene, "Folder with photographs and cameras [a temple, rendered for this]");
-  app.add_option("-o,--output", arguments.json, "File for the report as JSON");
-  app.add_option("--compare", arguments.compare,
-                 "A report to compare with; with a second one, nothing is run and these two are compared")
-      ->expected(1, 2);
-  app.add_flag("--quiet", arguments.run.quiet, "Print nothing but errors");
-  add_run_options(app, arguments.run.options, kAllStages);
-  return run_command(app, argc, argv, [&] { return run_bench(arguments); });
+  line.add("scene", arguments.run.scene, "Folder with photographs and cameras [a temple, rendered for this]");
+  line.add("-o,--output", arguments.json, "File for the report as JSON");
+  line.add("--compare", arguments.compare,
+           "A report to compare with; with a second one, nothing is run and these two are compared")
+      .takes(1, 2);
+  line.add_switch("--quiet", arguments.run.quiet, "Print nothing but errors");
+  add_run_options(line, arguments.run.options, kAllStages);
+  return run_command(line, argc, argv, [&] { return run_bench(arguments); });
 }
 
 }  // namespace quorum

@@ -45,14 +45,14 @@ Expected<void> calibrate_files(const CalibrateArguments& arguments) {
 }  // namespace
 
 int calibrate_command(int argc, char** argv) {
-  CLI::App app("Compare depth maps with the truth: the share of right depths at each confidence.", "calibrate");
+  CommandLine line("Compare depth maps with the truth: the share of right depths at each confidence.", "calibrate");
   CalibrateArguments arguments;
-  app.add_option("scene", arguments.scene, "Folder of the scene")->required();
-  app.add_option("truth", arguments.truth, "PLY file of the true surface")->required();
-  app.add_option("-o,--output", arguments.workspace, "Folder with the depth maps of `quorum reconstruct`")->required();
-  app.add_option("--picture", arguments.picture, "SVG file for the curves");
-  add_named_options(app, arguments.options, {"format", "images", "model", "max-image-size"});
-  return run_command(app, argc, argv, [&] { return calibrate_files(arguments); });
+  line.add("scene", arguments.scene, "Folder of the scene").required();
+  line.add("truth", arguments.truth, "PLY file of the true surface").required();
+  line.add("-o,--output", arguments.workspace, "Folder with the depth maps of `quorum reconstruct`").required();
+  line.add("--picture", arguments.picture, "SVG file for the curves");
+  add_named_options(line, arguments.options, {"format", "images", "model", "max-image-size"});
+  return run_command(line, argc, argv, [&] { return calibrate_files(arguments); });
 }
 
 }  // namespace quorum

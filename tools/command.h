@@ -1,7 +1,6 @@
 // What the commands of `quorum` share: how one is called, how it fails, and how it reads its arguments.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
+#include "tools/command_line.h"
 
 namespace quorum {
 
@@ -35,10 +35,10 @@ int devices_command(int argc, char** argv);
 int bench_command(int argc, char** argv);
 int verify_command(int argc, char** argv);
 
-/// Parses the arguments into app and, if they are right, runs work. A failure is printed as one line "command: …" on
+/// Parses the arguments into line and, if they are right, runs work. A failure is printed as one line "command: …" on
 /// standard error, and its kind is the exit code; --help prints and gives 0. Results that could not be written are a
 /// failure (kInput); so is an empty word among the arguments (kUsage). Exceptions pass.
-int run_command(CLI::App& app, int argc, char** argv, const std::function<Expected<void>()>& work);
+int run_command(CommandLine& line, int argc, char** argv, const std::function<Expected<void>()>& work);
 
 /// Prints a failure as that line; the result is the exit code: 128 + signal if a signal stopped the run, else its kind.
 int fail(std::string_view command, const Error& error);

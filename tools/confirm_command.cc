@@ -4,14 +4,15 @@
 namespace quorum {
 
 int confirm_command(int argc, char** argv) {
-  CLI::App app("Give the depth maps in the output folder a certainty, from what they say of each other.", "confirm");
+  CommandLine line("Give the depth maps in the output folder a certainty, from what they say of each other.",
+                   "confirm");
   RunArguments arguments;
-  arguments.add_scene(app);
-  arguments.add_output(app);
+  arguments.add_scene(line);
+  arguments.add_output(line);
   arguments.takes_depth_options = true;
-  add_run_options(app, arguments.options,
+  add_run_options(line, arguments.options,
                   {RunStage::kScene, RunStage::kConfirm, RunStage::kFiles, RunStage::kNone, RunStage::kShards});
-  return run_command(app, argc, argv, [&] { return run_pipeline(arguments, {.depth_maps = false, .mesh = false}); });
+  return run_command(line, argc, argv, [&] { return run_pipeline(arguments, {.depth_maps = false, .mesh = false}); });
 }
 
 }  // namespace quorum

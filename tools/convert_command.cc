@@ -15,18 +15,16 @@ int convert_command(int argc, char** argv) {
                                                           {"colmap-text", ConvertedFormat::kColmapText},
                                                           {"mvsnet", ConvertedFormat::kMvsnet},
                                                           {"transforms", ConvertedFormat::kTransforms}};
-  CLI::App app("Write a scene in the format of other programs; distorted photographs are undistorted.", "convert");
+  CommandLine line("Write a scene in the format of other programs; distorted photographs are undistorted.", "convert");
   std::filesystem::path scene_folder;
   std::filesystem::path output;
   RunOptions options;
   std::string format;
-  app.add_option("scene", scene_folder, "Folder with the photographs and their cameras")->required();
-  app.add_option("--to", format, "Format to write")
-      ->required()
-      ->option_text("colmap, colmap-text, mvsnet or transforms");
-  app.add_option("-o,--output", output, "Folder for the scene; made if missing")->required();
-  add_named_options(app, options, {"format", "images", "model", "max-image-size", "roi"});
-  return run_command(app, argc, argv, [&]() -> Expected<void> {
+  line.add("scene", scene_folder, "Folder with the photographs and their cameras").required();
+  line.add("--to", format, "Format to write").required().shown_as("colmap, colmap-text, mvsnet or transforms");
+  line.add("-o,--output", output, "Folder for the scene; made if missing").required();
+  add_named_options(line, options, {"format", "images", "model", "max-image-size", "roi"});
+  return run_command(line, argc, argv, [&]() -> Expected<void> {
     const auto named = formats.find(format);
     if (named == formats.end())
       return failure(ErrorKind::kUsage, fmt::format("--to {}: give colmap, colmap-text, mvsnet or transforms", format));

@@ -4,15 +4,15 @@
 namespace quorum {
 
 int depth_command(int argc, char** argv) {
-  CLI::App app("Compute the depth maps of a scene, without merging them.", "depth");
+  CommandLine line("Compute the depth maps of a scene, without merging them.", "depth");
   RunArguments arguments;
-  arguments.add_scene(app);
-  arguments.add_output(app);
-  arguments.add_restart(app);
+  arguments.add_scene(line);
+  arguments.add_output(line);
+  arguments.add_restart(line);
   add_run_options(
-      app, arguments.options,
+      line, arguments.options,
       {RunStage::kScene, RunStage::kDepth, RunStage::kExtras, RunStage::kFiles, RunStage::kNone, RunStage::kShards});
-  return run_command(app, argc, argv, [&] { return run_pipeline(arguments, {.certainties = false, .mesh = false}); });
+  return run_command(line, argc, argv, [&] { return run_pipeline(arguments, {.certainties = false, .mesh = false}); });
 }
 
 }  // namespace quorum

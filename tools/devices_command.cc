@@ -88,12 +88,12 @@ Expected<void> list(const std::string&, bool json) {
 }  // namespace
 
 int devices_command(int argc, char** argv) {
-  CLI::App app("List the devices, with their limits, and say which one a run would use and why.", "devices");
+  CommandLine line("List the devices, with their limits, and say which one a run would use and why.", "devices");
   std::string request = "auto";
   bool json = false;
-  app.add_option("--device", request, "What a run would be asked for")->capture_default_str();
-  app.add_flag("--json", json, "Print JSON; sizes in bytes");
-  return run_command(app, argc, argv, [&] { return list(request, json); });
+  line.add("--device", request, "What a run would be asked for").with_default();
+  line.add_switch("--json", json, "Print JSON; sizes in bytes");
+  return run_command(line, argc, argv, [&] { return list(request, json); });
 }
 
 }  // namespace quorum

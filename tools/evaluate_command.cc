@@ -130,10 +130,10 @@ Expected<void> evaluate_files(EvaluateArguments& arguments) {
 }  // namespace
 
 int evaluate_command(int argc, char** argv) {
-  CLI::App app("Measure a mesh or cloud against the truth, as Seitz et al. 2006 do.", "evaluate");
+  CommandLine line("Measure a mesh or cloud against the truth, as Seitz et al. 2006 do.", "evaluate");
   EvaluateArguments arguments;
-  app.add_option("mesh", arguments.mesh, "PLY file of the reconstruction")->required();
-  app.add_option("truth", arguments.truth, "PLY file of the truth")->required();
+  line.add("mesh", arguments.mesh, "PLY file of the reconstruction").required();
+  line.add("truth", arguments.truth, "PLY file of the truth").required();
   using Make = OptionMaker<EvaluateOptions>;
   for (const Option<EvaluateOptions>& option :
        {Make::number("share", QUORUM_MEMBER(share), {0, 1},
@@ -146,15 +146,15 @@ int evaluate_command(int argc, char** argv) {
                      "With a scene: the truth that so many views see counts for completeness and recall; 0: all of it"),
         Make::length("hidden-by", QUORUM_MEMBER(hidden_by),
                      "A view does not see what lies more than this behind the truth")})
-    add_option(app, arguments.options, option);
-  app.add_option("--scene", arguments.scene, "Folder of the scene, for --seen-by");
-  app.add_option("--workspace", arguments.workspace,
-                 "Folder with the depth maps, to tell in which stage what is missed was lost");
-  app.add_option("--uncleaned", arguments.uncleaned,
-                 "The mesh of `quorum fuse --min-confidence 0 --min-component 0`, to tell fusion from clean-up");
-  add_named_options(app, arguments.run, {"format", "images", "model", "max-image-size"});
-  app.add_flag("--json", arguments.json, "Print JSON, in scene units");
-  return run_command(app, argc, argv, [&] { return evaluate_files(arguments); });
+    add_option(line, arguments.options, option);
+  line.add("--scene", arguments.scene, "Folder of the scene, for --seen-by");
+  line.add("--workspace", arguments.workspace,
+           "Folder with the depth maps, to tell in which stage what is missed was lost");
+  line.add("--uncleaned", arguments.uncleaned,
+           "The mesh of `quorum fuse --min-confidence 0 --min-component 0`, to tell fusion from clean-up");
+  add_named_options(line, arguments.run, {"format", "images", "model", "max-image-size"});
+  line.add_switch("--json", arguments.json, "Print JSON, in scene units");
+  return run_command(line, argc, argv, [&] { return evaluate_files(arguments); });
 }
 
 }  // namespace quorum

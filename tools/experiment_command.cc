@@ -36,19 +36,19 @@ std::string list_of_experiments() {
 }  // namespace
 
 int experiment_command(int argc, char** argv) {
-  CLI::App app("Repeat the experiments of the paper's section 4, and write a table and figures.", "experiment");
+  CommandLine line("Repeat the experiments of the paper's section 4, and write a table and figures.", "experiment");
   Arguments arguments;
-  app.add_option("names", arguments.experiment.names, "Which experiments; see below")->required();
-  app.add_option("-o,--output", arguments.experiment.output,
-                 "Folder for table, figures and runs; made if missing. What it holds already is not run again")
-      ->required();
-  app.add_option("--data", arguments.experiment.data,
-                 "Folder that holds the data sets, each in a folder of its name (templeRing, dragonRing …) "
-                 "[none: synthetic scenes alone]");
-  add_named_options(app, arguments.options, {"device", "threads"});
-  app.add_flag("--quiet", arguments.quiet, "Print nothing but errors");
-  app.footer(list_of_experiments());
-  return run_command(app, argc, argv, [&] { return run(arguments); });
+  line.add("names", arguments.experiment.names, "Which experiments; see below").required();
+  line.add("-o,--output", arguments.experiment.output,
+           "Folder for table, figures and runs; made if missing. What it holds already is not run again")
+      .required();
+  line.add("--data", arguments.experiment.data,
+           "Folder that holds the data sets, each in a folder of its name (templeRing, dragonRing …) "
+           "[none: synthetic scenes alone]");
+  add_named_options(line, arguments.options, {"device", "threads"});
+  line.add_switch("--quiet", arguments.quiet, "Print nothing but errors");
+  line.add_footer(list_of_experiments());
+  return run_command(line, argc, argv, [&] { return run(arguments); });
 }
 
 }  // namespace quorum

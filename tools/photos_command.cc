@@ -6,16 +6,16 @@
 namespace quorum {
 
 int photos_command(int argc, char** argv) {
-  CLI::App app("Reconstruct a mesh from plain photographs; the installed colmap finds their cameras.", "photos");
+  CommandLine line("Reconstruct a mesh from plain photographs; the installed colmap finds their cameras.", "photos");
   RunArguments arguments;
   std::filesystem::path photos;
   arguments.options.files.format = SceneFormat::kColmap;
   arguments.options.files.max_image_size = 2000;
-  app.add_option("photos", photos, "Folder with the photographs")->required();
-  arguments.add_output(app);
-  arguments.add_restart(app);
-  add_run_options(app, arguments.options, kAllStages, {"format", "images", "model"});
-  return run_command(app, argc, argv, [&]() -> Expected<void> {
+  line.add("photos", photos, "Folder with the photographs").required();
+  arguments.add_output(line);
+  arguments.add_restart(line);
+  add_run_options(line, arguments.options, kAllStages, {"format", "images", "model"});
+  return run_command(line, argc, argv, [&]() -> Expected<void> {
     QUORUM_TRY(Workspace::check_ours(arguments.output));  // before colmap works for hours
     arguments.scene = arguments.output / "cameras" / "dense";
     {

@@ -63,15 +63,16 @@ void print_plan(const Plan& plan, int threads, double most_seconds) {
 }  // namespace
 
 int plan_command(int argc, char** argv) {
-  CLI::App app("Tell what a run on the CPU will take: sizes, memory, disk, time, and shards for a given time.", "plan");
+  CommandLine line("Tell what a run on the CPU will take: sizes, memory, disk, time, and shards for a given time.",
+                   "plan");
   RunArguments arguments;
   std::string time;
-  arguments.add_scene(app);
-  app.add_option("--time", time, "Time that the run may take, such as 30min, 2h or 1d: tells how many shards it needs");
-  add_run_options(app, arguments.options,
+  arguments.add_scene(line);
+  line.add("--time", time, "Time that the run may take, such as 30min, 2h or 1d: tells how many shards it needs");
+  add_run_options(line, arguments.options,
                   {RunStage::kScene, RunStage::kDepth, RunStage::kConfirm, RunStage::kFusion, RunStage::kNone},
                   {"device", "memory"});
-  return run_command(app, argc, argv, [&]() -> Expected<void> {
+  return run_command(line, argc, argv, [&]() -> Expected<void> {
     QUORUM_TRY(arguments.options.check());
     const auto seconds = parse_time(time);
     if (!time.empty() && !seconds)

@@ -4,14 +4,14 @@
 namespace quorum {
 
 int reconstruct_command(int argc, char** argv) {
-  CLI::App app("Reconstruct a mesh from photographs with known cameras.", "reconstruct");
+  CommandLine line("Reconstruct a mesh from photographs with known cameras.", "reconstruct");
   RunArguments arguments;
-  arguments.add_scene(app);
-  arguments.add_output(app);
-  arguments.add_restart(app);
-  app.add_flag("--report", arguments.report, "Write report.html at the end, as `quorum report` does");
-  add_run_options(app, arguments.options, kAllStages);
-  return run_command(app, argc, argv, [&] { return run_pipeline(arguments); });
+  arguments.add_scene(line);
+  arguments.add_output(line);
+  arguments.add_restart(line);
+  line.add_switch("--report", arguments.report, "Write report.html at the end, as `quorum report` does");
+  add_run_options(line, arguments.options, kAllStages);
+  return run_command(line, argc, argv, [&] { return run_pipeline(arguments); });
 }
 
 }  // namespace quorum

@@ -108,22 +108,21 @@ Expected<void> render_file(const RenderArguments& arguments) {
 }  // namespace
 
 int render_command(int argc, char** argv) {
-  CLI::App app("Draw a mesh, or a cloud of points, as one of the scene's cameras sees it.", "render");
+  CommandLine line("Draw a mesh, or a cloud of points, as one of the scene's cameras sees it.", "render");
   RenderArguments arguments;
-  app.add_option("mesh", arguments.mesh, "PLY file, or GLB file of quorum texture or simplify")->required();
-  app.add_option("--scene", arguments.scene, "Folder of the scene")->required();
-  add_named_options(app, arguments.options, {"format", "images", "model", "masks", "mask-below", "max-image-size"});
-  app.add_option("--view", arguments.view, "Name of the view: its photograph, with or without extension")->required();
-  app.add_option("-o,--output", arguments.output, "Picture: .png, .jpg, .tif, .bmp or .webp")->required();
-  app.add_option("--shading", arguments.shading, "What to show")
-      ->check(CLI::IsMember({"shaded", "color", "confidence", "normal", "error"}))
-      ->capture_default_str();
-  app.add_option("--truth", arguments.truth, "PLY file of the true surface, for --shading error");
-  app.add_option("--full-error", arguments.full_error, "Distance from the truth that is drawn red; 0 is blue")
-      ->capture_default_str();
-  app.add_flag("--compare", arguments.compares,
-               "Tell PSNR and SSIM against the photograph where the mesh is seen; for --shading color");
-  return run_command(app, argc, argv, [&] { return render_file(arguments); });
+  line.add("mesh", arguments.mesh, "PLY file, or GLB file of quorum texture or simplify").required();
+  line.add("--scene", arguments.scene, "Folder of the scene").required();
+  add_named_options(line, arguments.options, {"format", "images", "model", "masks", "mask-below", "max-image-size"});
+  line.add("--view", arguments.view, "Name of the view: its photograph, with or without extension").required();
+  line.add("-o,--output", arguments.output, "Picture: .png, .jpg, .tif, .bmp or .webp").required();
+  line.add("--shading", arguments.shading, "What to show")
+      .one_of({"shaded", "color", "confidence", "normal", "error"})
+      .with_default();
+  line.add("--truth", arguments.truth, "PLY file of the true surface, for --shading error");
+  line.add("--full-error", arguments.full_error, "Distance from the truth that is drawn red; 0 is blue").with_default();
+  line.add_switch("--compare", arguments.compares,
+                  "Tell PSNR and SSIM against the photograph where the mesh is seen; for --shading color");
+  return run_command(line, argc, argv, [&] { return render_file(arguments); });
 }
 
 }  // namespace quorum

@@ -26,14 +26,14 @@ Expected<void> write_page(const ReportArguments& arguments) {
 }  // namespace
 
 int report_command(int argc, char** argv) {
-  CLI::App app(
+  CommandLine line(
       "Write OUT/report.html: the mesh, how sure each place of it is, what is missing, and the photographs beside it.",
       "report");
   ReportArguments arguments;
-  app.add_option("output", arguments.output, "Output folder of a finished run")->required();
-  app.add_option("--scene", arguments.scene, "Folder of the scene that the run was of")->required();
-  add_named_options(app, arguments.options, {"format", "images", "model", "max-image-size"});
-  return run_command(app, argc, argv, [&] { return write_page(arguments); });
+  line.add("output", arguments.output, "Output folder of a finished run").required();
+  line.add("--scene", arguments.scene, "Folder of the scene that the run was of").required();
+  add_named_options(line, arguments.options, {"format", "images", "model", "max-image-size"});
+  return run_command(line, argc, argv, [&] { return write_page(arguments); });
 }
 
 }  // namespace quorum

@@ -8,19 +8,19 @@
 
 namespace quorum {
 
-void RunArguments::add_scene(CLI::App& app) {
-  app.add_option("scene", scene,
-                 "Folder with the photographs and their cameras (Middlebury: *_par.txt, images, README.txt; "
-                 "COLMAP: images, sparse; nerfstudio, MVSNet, Bundler, OpenMVG, OpenSfM, Meshroom, Metashape, "
-                 "RealityCapture, VisualSFM)")
-      ->required();
+void RunArguments::add_scene(CommandLine& line) {
+  line.add("scene", scene,
+           "Folder with the photographs and their cameras (Middlebury: *_par.txt, images, README.txt; "
+           "COLMAP: images, sparse; nerfstudio, MVSNet, Bundler, OpenMVG, OpenSfM, Meshroom, Metashape, "
+           "RealityCapture, VisualSFM)")
+      .required();
 }
 
-void RunArguments::add_output(CLI::App& app) {
-  app.add_option("-o,--output", output, "Folder for the results; made if missing")->required();
-  command = app.get_name();
-  app.add_flag("--quiet", quiet, "Print nothing but errors");
-  add_flag(app, {"progress", "text or json", "text",
+void RunArguments::add_output(CommandLine& line) {
+  line.add("-o,--output", output, "Folder for the results; made if missing").required();
+  command = line.name();
+  line.add_switch("--quiet", quiet, "Print nothing but errors");
+  line.add_flag({"progress", "text or json", "text",
                  "How progress is told on standard error; json: an object a line, for programs", "Options", 1, 1,
                  [this](const std::vector<std::string>& words) -> Expected<void> {
                    if (words[0] != "text" && words[0] != "json")
@@ -28,11 +28,12 @@ void RunArguments::add_output(CLI::App& app) {
                    progress = words[0] == "json" ? ProgressForm::kJson : ProgressForm::kText;
                    return {};
                  }});
-  app.add_flag("--json", json, "Print run.json to standard output at the end, and nothing else there");
+  line.add_switch("--json", json, "Print run.json to standard output at the end, and nothing else there");
 }
 
-void RunArguments::add_restart(CLI::App& app) {
-  app.add_flag("--restart", restart, "Make all anew, also what earlier runs made of the same photographs and options");
+void RunArguments::add_restart(CommandLine& line) {
+  line.add_switch("--restart", restart,
+                  "Make all anew, also what earlier runs made of the same photographs and options");
 }
 
 Expected<void> with_run(const RunArguments& arguments, const RunSteps& steps,

@@ -23,9 +23,9 @@ struct RunArguments : RunRequest {
   /// How progress is told; kNone if quiet.
   [[nodiscard]] ProgressForm progress_form() const { return quiet ? ProgressForm::kNone : progress; }
 
-  void add_scene(CLI::App& app);
-  void add_output(CLI::App& app);
-  void add_restart(CLI::App& app);
+  void add_scene(CommandLine& line);
+  void add_output(CommandLine& line);
+  void add_restart(CommandLine& line);
 };
 
 /// Reads the scene and does the work on its run (host/run/open_run.h), with progress on the console; options are

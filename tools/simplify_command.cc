@@ -61,15 +61,15 @@ Expected<void> simplify_file(const SimplifyArguments& arguments) {
 }  // namespace
 
 int simplify_command(int argc, char** argv) {
-  CLI::App app(
+  CommandLine line(
       "Write a mesh with fewer triangles, or as it is in another format. Borders, colors and confidences are kept.",
       "simplify");
   SimplifyArguments arguments;
-  app.add_option("mesh", arguments.mesh, "PLY file")->required();
-  app.add_option("-o,--output", arguments.output, "File to write, .ply, .glb, .obj or .stl")->required();
-  app.add_option("--triangles", arguments.triangles, "Stop at so many triangles: 200000, 500k, 1.5M");
-  app.add_option("--error", arguments.error, "Deviate no more than this from the surface, as 0.5mm");
-  return run_command(app, argc, argv, [&] { return simplify_file(arguments); });
+  line.add("mesh", arguments.mesh, "PLY file").required();
+  line.add("-o,--output", arguments.output, "File to write, .ply, .glb, .obj or .stl").required();
+  line.add("--triangles", arguments.triangles, "Stop at so many triangles: 200000, 500k, 1.5M");
+  line.add("--error", arguments.error, "Deviate no more than this from the surface, as 0.5mm");
+  return run_command(line, argc, argv, [&] { return simplify_file(arguments); });
 }
 
 }  // namespace quorum

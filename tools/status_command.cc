@@ -120,10 +120,10 @@ Expected<void> tell_status(const fs::path& folder) {
 }  // namespace
 
 int status_command(int argc, char** argv) {
-  CLI::App app("Tell what an output folder holds, what it was made from, and what is missing.", "status");
+  CommandLine line("Tell what an output folder holds, what it was made from, and what is missing.", "status");
   fs::path folder;
-  app.add_option("folder", folder, "Output folder of a run")->required();
-  return run_command(app, argc, argv, [&] { return tell_status(folder); });
+  line.add("folder", folder, "Output folder of a run").required();
+  return run_command(line, argc, argv, [&] { return tell_status(folder); });
 }
 
 }  // namespace quorum

@@ -152,7 +152,7 @@ Expected<void> submit(Submission submission) {
 }
 
 /// The options of all stages; what is given is kept, in its words, too.
-void add_given_options(CLI::App& app, RunOptions& options, std::vector<GivenOption>& given) {
+void add_given_options(CommandLine& line, RunOptions& options, std::vector<GivenOption>& given) {
   for (const RunOption& option : run_option_table()) {
     if (option.stage == RunStage::kShards) continue;
     RunOption kept = option;
@@ -161,27 +161,25 @@ void add_given_options(CLI::App& app, RunOptions& options, std::vector<GivenOpti
       given.push_back({option.stage, option.given_name(), words});
       return {};
     };
-    add_option(app, options, kept, stage_heading(option.stage));
+    add_option(line, options, kept, stage_heading(option.stage));
   }
 }
 
 }  // namespace
 
 int submit_command(int argc, char** argv) {
-  CLI::App app("Hand a run to Slurm, in shards: quorum submit SCENE -o OUT --shards N -- [options of sbatch].",
-               "submit");
+  CommandLine line("Hand a run to Slurm, in shards: quorum submit SCENE -o OUT --shards N -- [options of sbatch].",
+                   "submit");
   Submission submission;
   RunOptions options;
-  app.add_option("scene", submission.scene, "Folder with the photographs and their cameras, seen by all nodes")
-      ->required();
-  app.add_option("-o,--output", submission.output, "Folder for the results, seen by all nodes; made if missing")
-      ->required();
-  app.add_option("--shards", submission.shards, "Jobs of each stage")->required()->check(CLI::Range(1, kMostShards));
-  app.add_flag("--dry-run", submission.dry_run, "Print the scripts and the calls of sbatch, and do nothing");
-  add_given_options(app, options, submission.given);
+  line.add("scene", submission.scene, "Folder with the photographs and their cameras, seen by all nodes").required();
+  line.add("-o,--output", submission.output, "Folder for the results, seen by all nodes; made if missing").required();
+  line.add("--shards", submission.shards, "Jobs of each stage").required().between(1, kMostShards);
+  line.add_switch("--dry-run", submission.dry_run, "Print the scripts and the calls of sbatch, and do nothing");
+  add_given_options(line, options, submission.given);
   const int own = static_cast<int>(std::find(argv + 1, argv + argc, std::string_view("--")) - argv);
   submission.sbatch.assign(argv + std::min(own + 1, argc), argv + argc);
-  return run_command(app, own, argv, [&]() -> Expected<void> {
+  return run_command(line, own, argv, [&]() -> Expected<void> {
     QUORUM_TRY(options.check());
     QUORUM_TRY(read_scene(submission.scene, options.files));
     return submit(submission);

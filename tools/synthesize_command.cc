@@ -6,11 +6,11 @@
 namespace quorum {
 
 int synthesize_command(int argc, char** argv) {
-  CLI::App app("Render a small stone temple from known cameras, with its exact surface gt.ply.", "synthesize");
+  CommandLine line("Render a small stone temple from known cameras, with its exact surface gt.ply.", "synthesize");
   std::filesystem::path folder;
   TempleOptions options;
   using Make = OptionMaker<TempleOptions>;
-  app.add_option("output", folder, "Folder for the scene; made if missing")->required();
+  line.add("output", folder, "Folder for the scene; made if missing").required();
   for (const Option<TempleOptions>& option : {
            Make::number("views", QUORUM_MEMBER(views), {3, 1024}, "Photographs to take"),
            Make::choice("cameras", QUORUM_MEMBER(path),
@@ -26,8 +26,8 @@ int synthesize_command(int argc, char** argv) {
                         "per-view: other places and strengths for each photograph"),
            Make::number("seed", QUORUM_MEMBER(seed), {}, "Same seed, same bytes"),
        })
-    add_option(app, options, option);
-  return run_command(app, argc, argv, [&] { return synthesize_temple(folder, options); });
+    add_option(line, options, option);
+  return run_command(line, argc, argv, [&] { return synthesize_temple(folder, options); });
 }
 
 }  // namespace quorum

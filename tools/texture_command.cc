@@ -45,21 +45,18 @@ Expected<void> texture_file(const TextureArguments& arguments) {
 }  // namespace
 
 int texture_command(int argc, char** argv) {
-  CLI::App app("Put the photographs of a scene on a mesh: each triangle is taken from one that shows it well.",
-               "texture");
+  CommandLine line("Put the photographs of a scene on a mesh: each triangle is taken from one that shows it well.",
+                   "texture");
   TextureArguments arguments;
-  app.add_option("mesh", arguments.mesh, "PLY file")->required();
-  app.add_option("--scene", arguments.scene, "Folder of the scene")->required();
-  app.add_option("-o,--output", arguments.output, "File to write: .glb, or .obj with .mtl and pictures beside it")
-      ->required();
-  for (const Option<TextureOptions>& option : texture_option_table()) add_option(app, arguments.texture, option);
-  app.add_option("--pages", arguments.pages, "Kind of the pictures")
-      ->check(CLI::IsMember({"jpg", "png"}))
-      ->capture_default_str();
-  app.add_flag("--quiet", arguments.quiet, "Print nothing but errors and the result");
-  add_named_options(app, arguments.options,
+  line.add("mesh", arguments.mesh, "PLY file").required();
+  line.add("--scene", arguments.scene, "Folder of the scene").required();
+  line.add("-o,--output", arguments.output, "File to write: .glb, or .obj with .mtl and pictures beside it").required();
+  for (const Option<TextureOptions>& option : texture_option_table()) add_option(line, arguments.texture, option);
+  line.add("--pages", arguments.pages, "Kind of the pictures").one_of({"jpg", "png"}).with_default();
+  line.add_switch("--quiet", arguments.quiet, "Print nothing but errors and the result");
+  add_named_options(line, arguments.options,
                     {"format", "images", "model", "masks", "mask-below", "max-image-size", "threads", "memory"});
-  return run_command(app, argc, argv, [&] { return texture_file(arguments); });
+  return run_command(line, argc, argv, [&] { return texture_file(arguments); });
 }
 
 }  // namespace quorum

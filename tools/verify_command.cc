@@ -46,12 +46,13 @@ Expected<void> verify(const VerifyArguments& arguments) {
 }  // namespace
 
 int verify_command(int argc, char** argv) {
-  CLI::App app("Reconstruct small scenes and compare every stage with the bytes that all devices must give.", "verify");
+  CommandLine line("Reconstruct small scenes and compare every stage with the bytes that all devices must give.",
+                   "verify");
   VerifyArguments arguments;
-  add_run_options(app, arguments.options, {RunStage::kNone});
-  app.add_flag("--quick", arguments.quick, "Leave out the scene of full size");
-  app.add_flag("--quiet", arguments.quiet, "Print the results alone");
-  return run_command(app, argc, argv, [&] { return verify(arguments); });
+  add_run_options(line, arguments.options, {RunStage::kNone});
+  line.add_switch("--quick", arguments.quick, "Leave out the scene of full size");
+  line.add_switch("--quiet", arguments.quiet, "Print the results alone");
+  return run_command(line, argc, argv, [&] { return verify(arguments); });
 }
 
 }  // namespace quorum

@@ -100,7 +100,10 @@ struct OptionMaker {
     };
     option.text = [member](const Options& options) {
       std::string list;
-      for (const double length : member(options)) list += (list.empty() ? "" : ",") + shortest_text(length);
+      for (const double length : member(options)) {
+        if (!list.empty()) list += ',';
+        list += shortest_text(length);
+      }
       return list;
     };
     return option;

@@ -66,11 +66,11 @@ PlaneRange half_range(const SweepTask& task, int x, int y, uint last_plane) {
 
 /// Whether the depths around a pixel of the half size go on as its own.
 bool is_inside_patch(const DepthMap& coarse, int x, int y, float most_difference) {
-  constexpr int kReach = 2;
-  if (x < kReach || y < kReach || x >= coarse.depth.width - kReach || y >= coarse.depth.height - kReach) return false;
+  constexpr int kMargin = 2;
+  if (x < kMargin || y < kMargin || x >= coarse.depth.width - kMargin || y >= coarse.depth.height - kMargin) return false;
   const float own = 1.0F / coarse.depth.at(x, y);
-  for (int v = y - kReach; v <= y + kReach; ++v) {
-    for (int u = x - kReach; u <= x + kReach; ++u) {
+  for (int v = y - kMargin; v <= y + kMargin; ++v) {
+    for (int u = x - kMargin; u <= x + kMargin; ++u) {
       const float depth = coarse.depth.at(u, v);
       if (depth == 0.0F || std::abs(1.0F / depth - own) > most_difference) return false;
     }
@@ -82,7 +82,7 @@ bool is_inside_patch(const DepthMap& coarse, int x, int y, float most_difference
 
 SweepTask make_half_task(const SweepTask& task, const DepthMap& full, const View& reference,
                          const std::vector<const View*>& neighbors) {
-  constexpr int kReach = 3;  // pixels of half size: what lies around makes planes and patches whole
+  constexpr int kGrown = 3;  // pixels of half size: what lies around makes planes and patches whole
   SweepTask half = make_small_task(task, reference, neighbors, 1);
   half.options.refinement = 1;
   half.outside = task.outside;
@@ -91,7 +91,7 @@ SweepTask make_half_task(const SweepTask& task, const DepthMap& full, const View
   const int width = half.reference->width;
   const int height = half.reference->height;
   const int radius = half.options.window / 2;
-  const Grid<std::uint8_t> wanted = grown(missing_pixels(task, full, width, height), kReach);
+  const Grid<std::uint8_t> wanted = grown(missing_pixels(task, full, width, height), kGrown);
   const auto last_plane = static_cast<uint>(half.planes.depth.size() - 1);
   half.ranges = Grid<PlaneRange>(width, height, PlaneRange{1, 0});
   for (int y = radius; y < height - radius; ++y)

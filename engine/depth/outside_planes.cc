@@ -14,10 +14,10 @@ namespace {
 
 /// Planes from the nearest of the task to infinity, equally spaced in inverse depth.
 DepthPlanes coarse_planes(const DepthPlanes& planes) {
-  constexpr double kMostPlanes = 512.0;
+  constexpr double kMostSteps = 512.0;
   const double nearest = planes.inverse_depth.front();
   constexpr double kSteps = 1 << kOutsideHalvings;
-  const double step = std::max(kSteps * static_cast<double>(planes.step()), nearest / kMostPlanes);
+  const double step = std::max(kSteps * static_cast<double>(planes.step()), nearest / kMostSteps);
   DepthPlanes coarse;
   const auto add = [&coarse](double inverse_depth) {
     coarse.inverse_depth.push_back(static_cast<float>(inverse_depth));

@@ -21,7 +21,7 @@ template <typename T>
 using Lanes = std::array<T, PlaneBatch::kCapacity>;
 
 /// What a thread needs to score a batch.
-struct Workspace {
+struct ScoreWorkspace {
   // Of the supports, for all neighbors.
   Lanes<std::int32_t> sum_a[3];
   Lanes<float> inverse_deviation;
@@ -40,7 +40,7 @@ constexpr std::size_t whole_groups(int lanes) {
 
 /// Supports of the batch: their sums, and their samples of the reference.
 [[gnu::always_inline]] inline void read_supports(const PlaneScorer& scorer, const TileSupports& supports,
-                                                 const WindowSumForm& form, const PlaneBatch& batch, Workspace& work) {
+                                                 const WindowSumForm& form, const PlaneBatch& batch, ScoreWorkspace& work) {
   const auto lanes = static_cast<std::size_t>(batch.count);
   Lanes<std::int32_t> pixel = {};
   for (std::size_t i = 0; i < lanes; ++i) {
@@ -63,7 +63,7 @@ constexpr std::size_t whole_groups(int lanes) {
 }
 
 [[gnu::always_inline]] inline void place_windows(const SweepTask& task, std::size_t neighbor, const PlaneBatch& batch,
-                                                 int radius, Workspace& work) {
+                                                 int radius, ScoreWorkspace& work) {
   const PlaneWarp warp = task.warps[neighbor];
   const int width = task.neighbors[neighbor]->width;
   const int height = task.neighbors[neighbor]->height;
@@ -88,7 +88,7 @@ constexpr std::size_t whole_groups(int lanes) {
 }
 
 /// Adds one neighbor's votes.
-[[gnu::always_inline]] inline void vote_for_planes(float threshold, const Workspace& work, PlaneBatch& batch) {
+[[gnu::always_inline]] inline void vote_for_planes(float threshold, const ScoreWorkspace& work, PlaneBatch& batch) {
   const auto lanes = static_cast<std::size_t>(batch.count);
   for (std::size_t i = 0; i < lanes; ++i) {
     const ReferenceWindow window{{work.sum_a[0][i], work.sum_a[1][i], work.sum_a[2][i]}, work.inverse_deviation[i]};
@@ -134,7 +134,7 @@ constexpr std::size_t whole_groups(int lanes) {
 }
 
 [[gnu::always_inline]] inline void score_body(const PlaneScorer& scorer, const TileSupports& supports,
-                                              PlaneBatch& batch, std::uint64_t& samples, Workspace& work) {
+                                              PlaneBatch& batch, std::uint64_t& samples, ScoreWorkspace& work) {
   const SweepTask& task = scorer.task;
   const int window = task.options.window;
   const WindowSumForm form = window_sum_form(scorer.simd);
@@ -192,7 +192,7 @@ PlaneScorer make_plane_scorer(const SweepTask& task, const Grid<SupportWindow>& 
 }
 
 void score_planes(const PlaneScorer& scorer, const TileSupports& supports, PlaneBatch& batch, std::uint64_t& samples) {
-  thread_local const auto work = std::make_unique<Workspace>();
+  thread_local const auto work = std::make_unique<ScoreWorkspace>();
   simd_form<score_body>(scorer.simd)(scorer, supports, batch, samples, *work);
 }
 

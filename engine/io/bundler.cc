@@ -107,9 +107,8 @@ std::string without_focal(const std::string& line) {
 }  // namespace
 
 fs::path find_bundle(const fs::path& folder) {
-  std::error_code ignored;
   for (const fs::path& candidate : {folder / "bundle.out", folder / "bundle" / "bundle.out"})
-    if (fs::is_regular_file(candidate, ignored)) return candidate;
+    if (is_file(candidate)) return candidate;
   return {};
 }
 

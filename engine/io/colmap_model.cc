@@ -130,10 +130,8 @@ std::size_t count_colmap_images(const fs::path& folder) {
 }
 
 std::string colmap_model_kind(const fs::path& folder) {
-  std::error_code ignored;
   for (const char* kind : {".bin", ".txt"})
-    if (fs::is_regular_file(folder / (std::string("cameras") + kind), ignored) &&
-        fs::is_regular_file(folder / (std::string("images") + kind), ignored))
+    if (is_file(folder / (std::string("cameras") + kind)) && is_file(folder / (std::string("images") + kind)))
       return kind;
   return {};
 }

@@ -66,6 +66,11 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
 Expected<std::string> read_file(const fs::path& path) try {
   // O_NONBLOCK: a pipe without a writer must be refused below, not waited for.
   const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));

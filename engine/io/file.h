@@ -10,6 +10,9 @@
 
 namespace quorum {
 
+/// True for a regular file; false also if that can't be told.
+bool is_file(const std::filesystem::path& path);
+
 /// Bytes of a regular file. Fails (kInput) if it is absent, unreadable or not a regular file, and (kMemory) if it does
 /// not fit into memory.
 Expected<std::string> read_file(const std::filesystem::path& path);

@@ -4,15 +4,12 @@
 #include <cctype>
 #include <charconv>
 
+#include "engine/io/file.h"
+
 namespace quorum {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_file(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored);
-}
 
 /// The file, or the one with a like extension.
 fs::path with_like_extension(const fs::path& path) {

@@ -143,7 +143,7 @@ Expected<std::map<std::string, int>> add_images(const Json& file, const Version&
   return image_of;
 }
 
-Expected<void> add_points(const Json& file, const std::map<std::string, int>& image_of, SfmModel& model) {
+Expected<void> add_landmarks(const Json& file, const std::map<std::string, int>& image_of, SfmModel& model) {
   for (const Json& json : list_of(file, "structure")) {
     JsonObject landmark(json);
     SparsePoint point{landmark.vector<3>("X"), {}};
@@ -176,7 +176,7 @@ Expected<Scene> read_meshroom(const fs::path& path, const fs::path& images) {
   if (!image_of) return refuse(image_of.error());
   if (model.images.empty())
     return path_failure(path, "no view has a pose; give the file of the node StructureFromMotion");
-  if (const auto added = add_points(file, *image_of, model); !added) return refuse(added.error());
+  if (const auto added = add_landmarks(file, *image_of, model); !added) return refuse(added.error());
   return make_sfm_scene(std::move(model), photograph_folders(path, images));
 }
 

@@ -149,7 +149,7 @@ pugi::xml_node choose_chunk(const pugi::xml_node& document, std::vector<std::str
   return best;
 }
 
-Expected<void> add_images(const pugi::xml_node& chunk, SfmModel& model) {
+Expected<void> add_cameras(const pugi::xml_node& chunk, SfmModel& model) {
   std::map<std::string, pugi::xml_node> sensors;
   for (const pugi::xml_node& sensor : chunk.child("sensors").children("sensor"))
     sensors.emplace(sensor.attribute("id").as_string(), sensor);
@@ -200,7 +200,7 @@ Expected<Scene> read_metashape(const fs::path& path, const fs::path& images) {
   SfmModel model{path};
   const pugi::xml_node chunk = choose_chunk(xml.child("document"), model.notes);
   if (!chunk) return path_failure(path, "holds no chunk; write it with File > Export > Export Cameras");
-  if (const auto added = add_images(chunk, model); !added) return std::unexpected(added.error().within(path.string()));
+  if (const auto added = add_cameras(chunk, model); !added) return std::unexpected(added.error().within(path.string()));
   return make_sfm_scene(std::move(model), photograph_folders(path, images));
 }
 

@@ -121,7 +121,7 @@ Expected<std::map<std::string, Camera>> parse_poses(const Json& file) {
 }
 
 /// Adds the images, and gives their places by the ids of their views.
-Expected<std::map<std::string, int>> add_images(const Json& file, SfmModel& model) {
+Expected<std::map<std::string, int>> add_views(const Json& file, SfmModel& model) {
   QUORUM_ASSIGN(const auto lenses, parse_intrinsics(file));
   QUORUM_ASSIGN(const auto poses, parse_poses(file));
   QUORUM_ASSIGN(const auto views, entries_of(file, "views"));
@@ -145,7 +145,7 @@ Expected<std::map<std::string, int>> add_images(const Json& file, SfmModel& mode
   return image_of;
 }
 
-Expected<void> add_points(const Json& file, const std::map<std::string, int>& image_of, SfmModel& model) {
+Expected<void> add_tracks(const Json& file, const std::map<std::string, int>& image_of, SfmModel& model) {
   QUORUM_ASSIGN(const auto entries, entries_of(file, "structure"));
   for (const Entry& entry : entries) {
     JsonObject object(*entry.value);
@@ -169,13 +169,13 @@ Expected<Scene> read_openmvg(const fs::path& path, const fs::path& images) {
   QUORUM_ASSIGN(const Json file, parse_json(path, text));
   if (!file.is_object()) return path_failure(path, "is no JSON object; check its syntax");
   SfmModel model{path};
-  const auto image_of = add_images(file, model);
+  const auto image_of = add_views(file, model);
   if (!image_of) return refuse(image_of.error());
   if (model.images.empty())
     return path_failure(path,
                         "no view has a pose; give the sfm_data.json that openMVG_main_SfM wrote, converted with "
                         "openMVG_main_ConvertSfM_DataFormat -i sfm_data.bin -o sfm_data.json");
-  if (const auto added = add_points(file, *image_of, model); !added) return refuse(added.error());
+  if (const auto added = add_tracks(file, *image_of, model); !added) return refuse(added.error());
   std::vector<fs::path> folders = photograph_folders(path, images);
   JsonObject object(file);
   if (const std::string root = object.text_or_empty("root_path"); images.empty() && !root.empty())

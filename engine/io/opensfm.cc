@@ -70,7 +70,7 @@ const Json* choose_largest(const Json& file, std::vector<std::string>& notes) {
   return best;
 }
 
-Expected<void> add_images(const Json& reconstruction, SfmModel& model) {
+Expected<void> add_shots(const Json& reconstruction, SfmModel& model) {
   std::map<std::string, Lens> lenses;
   for (const auto& [name, camera] : members(reconstruction, "cameras").items()) {
     const auto lens = parse_lens(camera);
@@ -135,7 +135,7 @@ Expected<Scene> read_opensfm(const fs::path& path, const fs::path& images) {
   SfmModel model{path};
   const Json* reconstruction = choose_largest(file, model.notes);
   if (reconstruction == nullptr) return path_failure(path, "holds no reconstruction; run opensfm reconstruct");
-  if (const auto added = add_images(*reconstruction, model); !added) return refuse(added.error());
+  if (const auto added = add_shots(*reconstruction, model); !added) return refuse(added.error());
   const auto points = parse_points(*reconstruction);
   if (!points) return refuse(points.error());
   const fs::path tracks = path.parent_path() / "tracks.csv";

@@ -34,9 +34,9 @@ std::vector<std::string> split_fields(std::string_view line) {
 }
 
 /// A line under the names of its columns.
-class Row {
+class RegistrationRow {
  public:
-  Row(const std::vector<std::string>& columns, const std::vector<std::string>& fields)
+  RegistrationRow(const std::vector<std::string>& columns, const std::vector<std::string>& fields)
       : columns_(columns), fields_(fields) {}
 
   /// 0 for a column that may be absent.
@@ -63,7 +63,7 @@ class Row {
   std::string problem_;
 };
 
-Camera parse_pose(Row& row) {
+Camera parse_pose(RegistrationRow& row) {
   const auto turn = [](double degrees, const Eigen::Vector3d& axis) {
     return Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis);
   };
@@ -82,7 +82,7 @@ Camera parse_pose(Row& row) {
   return camera;
 }
 
-std::function<Lens(ImageSize)> parse_lens(Row& row, bool& bends) {
+std::function<Lens(ImageSize)> parse_lens(RegistrationRow& row, bool& bends) {
   constexpr double kFilm = 36.0;  // millimeters of the longer side
   const double focal = row.number("f") / kFilm;
   const Eigen::Vector2d shift = Eigen::Vector2d(row.number("px", true), row.number("py", true)) / kFilm;
@@ -133,7 +133,7 @@ Expected<Scene> read_realitycapture(const fs::path& path, const fs::path& images
     if (fields.size() != columns.size())
       return failure_at_line(path, lines.number(),
                              fmt::format("expected {} columns, found {}", columns.size(), fields.size()));
-    Row row(columns, fields);
+    RegistrationRow row(columns, fields);
     const Camera pose = parse_pose(row);
     auto lens = parse_lens(row, bends);
     if (!row.problem().empty()) return failure_at_line(path, lines.number(), row.problem());

@@ -6,6 +6,7 @@
 #include <new>
 #include <system_error>
 
+#include "engine/io/file.h"
 #include "engine/io/meshroom.h"
 #include "engine/io/metashape.h"
 #include "engine/io/openmvg.h"
@@ -19,11 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Paths = std::vector<fs::path>;
-
-bool is_file(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored);
-}
 
 /// The first of some paths that is a file.
 Paths first_of(std::initializer_list<fs::path> paths) {

@@ -17,9 +17,9 @@ namespace {
 using Json = nlohmann::json;
 
 /// Values of a frame, or else of the file; the first that is of another kind is kept for the message.
-class Fields {
+class FrameFields {
  public:
-  Fields(const Json& frame, const Json& file) : frame_(frame), file_(file) {}
+  FrameFields(const Json& frame, const Json& file) : frame_(frame), file_(file) {}
 
   /// Null if it is in neither.
   [[nodiscard]] const Json* find(const std::string& name) const {
@@ -78,7 +78,7 @@ constexpr std::string_view kPerspective[] = {"",       "PERSPECTIVE", "SIMPLE_PI
 constexpr std::string_view kFisheyes[] = {"OPENCV_FISHEYE", "SIMPLE_RADIAL_FISHEYE", "RADIAL_FISHEYE", "SIMPLE_FISHEYE",
                                           "FISHEYE"};
 
-/// Fields that would bend the picture or move its rays in ways that are not read here.
+/// FrameFields that would bend the picture or move its rays in ways that are not read here.
 constexpr const char* kBending[] = {"ftheta_p0",
                                     "ftheta_p1",
                                     "ftheta_p2",
@@ -150,7 +150,7 @@ constexpr std::string_view kHarmless[] = {"aabb_scale",
 
 bool contains(auto& names, std::string_view name) { return std::ranges::count(names, name) > 0; }
 
-void set_coefficients(Fields& fields, const std::string& model, bool is_fisheye, Lens& lens) {
+void set_coefficients(FrameFields& fields, const std::string& model, bool is_fisheye, Lens& lens) {
   const auto k = [&fields](const char* name) { return fields.coefficient(name); };
   if (!is_fisheye) {
     const bool rational = model == "FULL_OPENCV" || k("k5") != 0.0 || k("k6") != 0.0;
@@ -178,7 +178,7 @@ void set_coefficients(Fields& fields, const std::string& model, bool is_fisheye,
 }  // namespace
 
 Expected<Lens> lens_of_frame(const Json& frame, const Json& file, ImageSize size) {
-  Fields fields(frame, file);
+  FrameFields fields(frame, file);
   const std::string model = fields.word("camera_model");
   if (model == "EQUIRECTANGULAR")
     return failure(

@@ -7,7 +7,7 @@
 namespace quorum {
 namespace {
 
-constexpr std::uint64_t kAll = ~std::uint64_t{0};
+constexpr std::uint64_t kAllVoxels = ~std::uint64_t{0};
 constexpr std::uint64_t kFirstColumn = 0x0101010101010101ULL;  // x = 0
 constexpr std::uint64_t kLastColumn = kFirstColumn << 7;
 constexpr std::uint64_t kFirstRow = 0xffULL;  // y = 0
@@ -66,8 +66,8 @@ void erode(std::vector<BlockBits>& voxels, const VoxelGrid& grid) {
   std::vector<BlockBits> result(voxels.size());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(voxels.size()), [&](std::uint32_t index) {
-      const BlockBits before = shifted(voxels, grid, index, axis, false, kAll);
-      const BlockBits after = shifted(voxels, grid, index, axis, true, kAll);
+      const BlockBits before = shifted(voxels, grid, index, axis, false, kAllVoxels);
+      const BlockBits after = shifted(voxels, grid, index, axis, true, kAllVoxels);
       for (std::size_t z = 0; z < before.size(); ++z) result[index][z] = voxels[index][z] & before[z] & after[z];
     });
     std::swap(voxels, result);
@@ -106,7 +106,7 @@ std::vector<BlockBits> flood(const std::vector<BlockBits>& outside, const VoxelG
   };
   for (std::uint32_t index = 0; index < outside.size(); ++index) reach(index, border_voxels(grid, index));
   BlockBits all;
-  all.fill(kAll);
+  all.fill(kAllVoxels);
   for (const Eigen::Vector3d& camera : cameras) {
     const Eigen::Vector3d at = (camera - grid.origin) / (grid.voxel_size * kBlockSide);
     for (std::uint32_t beside = 0; beside < 27; ++beside) {
@@ -144,8 +144,8 @@ BlockBits border_voxels(const VoxelGrid& grid, std::uint32_t index) {
   const std::uint64_t sides = (x == 0 ? kFirstColumn : 0) | (x == grid.blocks[0] - 1 ? kLastColumn : 0) |
                               (y == 0 ? kFirstRow : 0) | (y == grid.blocks[1] - 1 ? kLastRow : 0);
   bits.fill(sides);
-  if (z == 0) bits.front() = kAll;
-  if (z == grid.blocks[2] - 1) bits.back() = kAll;
+  if (z == 0) bits.front() = kAllVoxels;
+  if (z == grid.blocks[2] - 1) bits.back() = kAllVoxels;
   return bits;
 }
 

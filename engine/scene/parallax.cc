@@ -18,19 +18,19 @@ const View& view_at(const Scene& scene, int index) { return scene.views[static_c
 
 double focal_pixels(const Camera& camera) { return (camera.intrinsics(0, 0) + camera.intrinsics(1, 1)) / 2.0; }
 
-double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+double chord_angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return 2.0 * std::asin(std::min(1.0, (a - b).norm() / 2.0)) * kRadian;
 }
 
 /// 0 if there are none; values is reordered.
-double median(std::vector<double>& values) {
+double median_or_0(std::vector<double>& values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-bool shows(const View& view, const Eigen::Vector3d& point) {
+bool is_in_image(const View& view, const Eigen::Vector3d& point) {
   const Eigen::Vector3d pixel = view.camera.project(point);
   return pixel.z() > 0 && pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() <= view.width - 0.5 &&
          pixel.y() <= view.height - 0.5;
@@ -63,16 +63,16 @@ Candidate look_at(const Scene& scene, const std::vector<RayPoint>& points, int v
   std::vector<double> angles;
   for (std::size_t index = 0; index < points.size(); ++index) {
     const RayPoint& point = points[index];
-    if (!shows(other, point.position)) continue;
+    if (!is_in_image(other, point.position)) continue;
     const Eigen::Vector3d direction = (center - point.position).normalized();
-    const double angle = angle_deg(direction, point.to_view);
+    const double angle = chord_angle_deg(direction, point.to_view);
     if (angle >= max_deg) continue;
     angles.push_back(angle);
     const double ratio = pixels_per_unit(other.camera, point.position) / point.pixels_per_unit;
     const double fall_off = angle <= kWideAngleDeg ? 1.0 : (max_deg - angle) / (max_deg - kWideAngleDeg);
     candidate.points.push_back({index, direction, angle_weight(angle) * resolution_weight(ratio) * fall_off});
   }
-  if (median(angles) < least_deg) candidate.points.clear();
+  if (median_or_0(angles) < least_deg) candidate.points.clear();
   return candidate;
 }
 
@@ -103,7 +103,7 @@ void weigh_down_what_is_seen(std::vector<SeenPoint>& points, const std::vector<S
   for (SeenPoint& point : points) {
     while (other != taken.end() && other->index < point.index) ++other;
     if (other == taken.end()) return;
-    if (other->index == point.index) point.weight *= angle_weight(angle_deg(point.direction, other->direction));
+    if (other->index == point.index) point.weight *= angle_weight(chord_angle_deg(point.direction, other->direction));
   }
 }
 
@@ -143,8 +143,8 @@ double least_parallax_deg(const Camera& camera) {
 double parallax_deg(const std::vector<RayPoint>& points, const Eigen::Vector3d& other_center) {
   std::vector<double> angles;
   for (std::size_t i = 0; i < points.size(); i += kStride)
-    angles.push_back(angle_deg((other_center - points[i].position).normalized(), points[i].to_view));
-  return median(angles);
+    angles.push_back(chord_angle_deg((other_center - points[i].position).normalized(), points[i].to_view));
+  return median_or_0(angles);
 }
 
 namespace {
@@ -177,7 +177,7 @@ bool repeats(const View& view, const std::vector<RayPoint>& points, const View& 
   if (ratio > kLikeResolution || ratio * kLikeResolution < 1.0) return false;
   if (!lacks_parallax(points, earlier.camera.center(), least_parallax_deg(view.camera))) return false;
   const auto seen =
-      std::ranges::count_if(points, [&](const RayPoint& point) { return shows(earlier, point.position); });
+      std::ranges::count_if(points, [&](const RayPoint& point) { return is_in_image(earlier, point.position); });
   return static_cast<double>(seen) >= kShare * static_cast<double>(points.size());
 }
 

@@ -12,24 +12,24 @@ namespace {
 
 constexpr int kWhole = 256;  // sum of the weights of a pixel
 
-using Shares = std::array<double, 3>;
+using Barycentric = std::array<double, 3>;
 
 /// Those of the place in the triangle that is near.
-Shares clamped(const Shares& shares) {
-  Shares inside{};
+Barycentric clamped(const Barycentric& shares) {
+  Barycentric inside{};
   double sum = 0;
   for (int i = 0; i < 3; ++i) sum += inside[i] = std::clamp(shares[i], 0.0, 1.0);
   for (double& share : inside) share /= sum;
   return inside;
 }
 
-int weight_of(const BlendPart& part, const Shares& shares) {
+int weight_of(const BlendPart& part, const Barycentric& shares) {
   return static_cast<int>((shares[0] * part.shares[0] + shares[1] * part.shares[1] + shares[2] * part.shares[2]) *
                           kWhole);
 }
 
 /// color: 1/256 levels.
-void add_color(std::array<std::uint16_t, 3>& sums, const std::array<std::int32_t, 3>& color, const Shares& shares,
+void add_color(std::array<std::uint16_t, 3>& sums, const std::array<std::int32_t, 3>& color, const Barycentric& shares,
                const std::array<const LevelShift*, 3>& shifts, int weight) {
   for (int channel = 0; channel < 3; ++channel) {
     const double shift =
@@ -40,10 +40,10 @@ void add_color(std::array<std::uint16_t, 3>& sums, const std::array<std::int32_t
 }
 
 /// A surface point of a triangle at shares of its picture.
-Eigen::Vector3d point_at(const Mesh& mesh, const OwnPlaces& places, std::uint32_t triangle, const Shares& shares) {
+Eigen::Vector3d point_at(const Mesh& mesh, const OwnPlaces& places, std::uint32_t triangle, const Barycentric& shares) {
   constexpr double kFarOutside = -4;  // a small triangle does not tell how the surface goes on
-  const Shares used = std::ranges::min(shares) < kFarOutside ? clamped(shares) : shares;
-  Shares nearness{};
+  const Barycentric used = std::ranges::min(shares) < kFarOutside ? clamped(shares) : shares;
+  Barycentric nearness{};
   double sum = 0;
   for (int i = 0; i < 3; ++i) sum += nearness[i] = used[i] / places.place(triangle, i).depth;
   double point[3] = {};
@@ -83,7 +83,7 @@ void PagePainter::find_owners(const Chart& chart) {
   };
   bool is_empty = true;
   for (const std::uint32_t t : plan_.charts.of(chart))
-    plan_.places.pixels(t).for_each(view.width, view.height, [&](int x, int y, const Shares&) {
+    plan_.places.pixels(t).for_each(view.width, view.height, [&](int x, int y, const Barycentric&) {
       if (owner_at(x, y) == kNoTriangle) owner_at(x, y) = t;
       is_empty = false;
     });
@@ -153,8 +153,8 @@ void PagePainter::paint_own(std::uint32_t triangle, const ColorImage& photograph
   std::array<const LevelShift*, 3> shifts{};
   for (int i = 0; i < 3; ++i)
     shifts[i] = &plan_.shifts[plan_.patch_vertices.find(plan_.mesh.triangles[triangle][i], plan_.views[triangle])];
-  for_each_pixel(triangle, [&](auto& sums, int x, int y, const Shares& shares) {
-    const Shares inside = clamped(shares);
+  for_each_pixel(triangle, [&](auto& sums, int x, int y, const Barycentric& shares) {
+    const Barycentric inside = clamped(shares);
     int weight = kWhole;
     for (const BlendPart& part : parts) weight -= weight_of(part, inside);
     std::array<std::int32_t, 3> color = levels_of(photograph.at(x, y));
@@ -164,8 +164,8 @@ void PagePainter::paint_own(std::uint32_t triangle, const ColorImage& photograph
 }
 
 void PagePainter::paint_part(const BlendPart& part, const Projector& project, const ColorImage& photograph) {
-  for_each_pixel(part.triangle, [&](auto& sums, int, int, const Shares& shares) {
-    const Shares inside = clamped(shares);
+  for_each_pixel(part.triangle, [&](auto& sums, int, int, const Barycentric& shares) {
+    const Barycentric inside = clamped(shares);
     const ProjectedVertex place = snap(project(point_at(plan_.mesh, plan_.places, part.triangle, shares)));
     add_color(sums, sample_color(photograph, place.x, place.y), inside,
               {&part.shifts[0], &part.shifts[1], &part.shifts[2]}, weight_of(part, inside));

@@ -84,6 +84,10 @@ ProgramResult Program::wait() {
   return {code, file_bytes(folder_.path() / "out"), file_bytes(folder_.path() / "err")};
 }
 
+std::filesystem::path built_program(const std::string& name) {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+}
+
 bool group_runs(pid_t group) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {

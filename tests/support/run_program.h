@@ -47,6 +47,9 @@ class Program {
   pid_t process_ = -1;
 };
 
+/// A program that was built beside the running test.
+std::filesystem::path built_program(const std::string& name);
+
 /// Whether a process of this group still runs. One that has ended and that nobody has waited for does not: where the
 /// first process of a container takes over orphans, it may never wait.
 bool group_runs(pid_t group);

@@ -4,10 +4,6 @@
 namespace quorum {
 
 /// True if the address sanitizer keeps freed memory, so that what a process holds says little.
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool kFreedMemoryIsKept = true;
-#else
-constexpr bool kFreedMemoryIsKept = false;
-#endif
+bool freed_memory_is_kept();
 
 }  // namespace quorum

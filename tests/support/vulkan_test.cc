@@ -6,12 +6,6 @@
 
 #include "host/device_choice.h"
 
-#ifdef __SANITIZE_ADDRESS__
-// Vulkan loaders and drivers keep what they allocate until the process ends; that is not for us to mend. The sanitizer
-// finds what is visible alone.
-extern "C" [[gnu::visibility("default")]] const char* __asan_default_options() { return "detect_leaks=0"; }
-#endif
-
 namespace quorum {
 namespace {
 

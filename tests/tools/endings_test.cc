@@ -23,7 +23,7 @@ class Endings : public ToolTest {
   void begin(std::unique_ptr<Program>& program, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments = reconstruct({"--threads", "1", "--step-pixels", "0.05"});
     arguments.insert(arguments.end(), more.begin(), more.end());
-    program = std::make_unique<Program>(QUORUM_PROGRAM, arguments);
+    program = std::make_unique<Program>(built_program("quorum"), arguments);
     const auto first = result() / "depth" / "temple0001.depth.pfm";
     for (int wait = 0; wait < 6000 && !std::filesystem::exists(first); ++wait)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -90,7 +90,7 @@ TEST_F(Endings, TheFirstInterruptIsAnsweredAtOnceAndTheSecondEndsTheRun) {
 }
 
 TEST_F(Endings, CommandsWithoutViewsStopAtOnce) {
-  Program program(QUORUM_PROGRAM, {"synthesize", below("large").string(), "--views", "300", "--width", "900"});
+  Program program(built_program("quorum"), {"synthesize", below("large").string(), "--views", "300", "--width", "900"});
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   program.send(SIGTERM);
   EXPECT_EQ(program.wait().exit_code, 143);

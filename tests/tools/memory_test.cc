@@ -20,7 +20,7 @@ class Memory : public ToolTest {
 };
 
 TEST_F(Memory, ARunHoldsWhatWasEstimatedAndNotMuchLess) {
-  if (kFreedMemoryIsKept) GTEST_SKIP() << "the sanitizer keeps freed memory";
+  if (freed_memory_is_kept()) GTEST_SKIP() << "the sanitizer keeps freed memory";
   synthesize(5, 800);
   for (const std::vector<std::string>& more : {std::vector<std::string>{"--step-pixels", "4"},
                                                {"--step-pixels", "4", "--window-model", "plane", "--cloud", "--colmap"},

@@ -104,7 +104,7 @@ TEST_F(Photos, ASignalEndsColmapToo) {
   write_script("sleep 60 & wait\n");
   for (const int signal : {SIGTERM, SIGINT}) {
     fs::remove(below("calls"));
-    Program program(QUORUM_PROGRAM, arguments(true), with_colmap());
+    Program program(built_program("quorum"), arguments(true), with_colmap());
     for (int wait = 0; wait < 1000 && calls().empty(); ++wait)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     const int colmap = std::atoi(calls().c_str());
@@ -122,7 +122,7 @@ TEST_F(Photos, ASignalEndsColmapToo) {
 
 TEST_F(Photos, OneFolderHoldsOneColmap) {
   write_script("sleep 60\n");
-  Program first(QUORUM_PROGRAM, arguments(true), with_colmap());
+  Program first(built_program("quorum"), arguments(true), with_colmap());
   for (int wait = 0; wait < 1000 && calls().empty(); ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   expect_failure(quorum_program(arguments(true), with_colmap()), 3, {"another quorum photos", "choose another"});
   first.send(SIGKILL);

@@ -131,7 +131,7 @@ TEST_F(Reconstruct, DepthThenFuseGivesTheSameBytes) {
 }
 
 TEST_F(Reconstruct, ABudgetIsKeptAndLeavesEveryByteAlone) {
-  if (kFreedMemoryIsKept) GTEST_SKIP() << "the sanitizer keeps freed memory";
+  if (freed_memory_is_kept()) GTEST_SKIP() << "the sanitizer keeps freed memory";
   const std::vector<std::string> fine = {"--device", "cpu", "--voxel-size", "0.6mm"};  // 26 MiB of voxels
   const Files whole = reconstruct("whole", fine);
   ASSERT_EQ(report("whole")["volume"]["slabs"], 1);
@@ -222,7 +222,7 @@ TEST_F(Reconstruct, SceneWithoutNeighborsIsRefused) {
 }
 
 TEST_F(Reconstruct, SigtermStopsTheRunAndLeavesNoHalfFile) {
-  Program program(QUORUM_PROGRAM, {"reconstruct", scene().string(), "-o", below("result").string(), "--device", "cpu",
+  Program program(built_program("quorum"), {"reconstruct", scene().string(), "-o", below("result").string(), "--device", "cpu",
                                    "--threads", "1", "--step-pixels", "0.05", "--quiet"});
   const auto first = below("result") / "depth" / "temple0001.depth.pfm";
   for (int wait = 0; wait < 6000 && !std::filesystem::exists(first); ++wait)

@@ -96,7 +96,7 @@ TEST_F(Resume, AfterAKillOnlyTheRestIsDone) {
   const Files whole = run("reconstruct", "whole");
   for (const int view : {1, 4, 8}) {
     fs::remove_all(below("result"));
-    Program program(QUORUM_PROGRAM, command("reconstruct", "result"));
+    Program program(built_program("quorum"), command("reconstruct", "result"));
     const fs::path record = map("result", "temple000" + std::to_string(view) + ".depth.json");
     for (int wait = 0; wait < 60'000 && !fs::exists(record); ++wait)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -178,7 +178,7 @@ TEST_F(Resume, NoOlderMeshStandsBesideAFailedRun) {
 }
 
 TEST_F(Resume, ASecondRunInTheSameFolderIsRefusedAndNamesTheFirst) {
-  Program first(QUORUM_PROGRAM, command("reconstruct", "result", {"--threads", "1", "--step-pixels", "0.05"}));
+  Program first(built_program("quorum"), command("reconstruct", "result", {"--threads", "1", "--step-pixels", "0.05"}));
   for (int wait = 0; wait < 1000 && !fs::exists(below("result") / ".quorum.lock"); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   std::this_thread::sleep_for(std::chrono::milliseconds(50));

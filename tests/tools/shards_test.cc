@@ -69,7 +69,7 @@ TEST_F(Shards, MoreShardsThanViewsAndAnotherNumberAtEachStage) {
   run("reconstruct", {}, "whole");
   run_shards("depth", {5, 11, 2, 9, 1, 4, 10, 3, 8, 7, 6}, 11);
   run_shards("confirm", {1}, 1);
-  run_shards("fuse", {2, 1}, 2, {"--memory", kFreedMemoryIsKept ? "1GiB" : "80MiB"});
+  run_shards("fuse", {2, 1}, 2, {"--memory", freed_memory_is_kept() ? "1GiB" : "80MiB"});
   run_shards("fuse", {2, 4, 3, 5, 1}, 5);
   run("join");
   expect_same_results("whole", "shards");
@@ -130,7 +130,7 @@ TEST_F(Shards, WrongShardsAndOptionsOfTheLastStepAreRefused) {
 
 TEST_F(Shards, WorkAtOnceButNoneTwiceAndNoneBesideARun) {
   synthesize(8, 240);  // so that the first takes a while
-  Program first(QUORUM_PROGRAM, command("depth", {"--threads", "1", "--step-pixels", "0.05", "--shard", "1/2"}));
+  Program first(built_program("quorum"), command("depth", {"--threads", "1", "--step-pixels", "0.05", "--shard", "1/2"}));
   const fs::path lock = below("shards") / "shards" / "depth-1-of-2.lock";
   for (int wait = 0; wait < 1000 && !fs::exists(lock); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

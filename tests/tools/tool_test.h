@@ -18,7 +18,7 @@ const std::vector<std::string> kKeepAll = {"--min-component", "0", "--min-confid
 
 /// Runs the program under test.
 inline ProgramResult quorum_program(const std::vector<std::string>& arguments, const ProgramSetting& setting = {}) {
-  return Program(QUORUM_PROGRAM, arguments, setting).wait();
+  return Program(built_program("quorum"), arguments, setting).wait();
 }
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

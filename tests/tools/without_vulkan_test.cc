@@ -7,7 +7,8 @@ namespace {
 class WithoutVulkan : public ToolTest {
  protected:
   static ProgramResult run(const std::vector<std::string>& arguments) {
-    return Program(QUORUM_PROGRAM_WITHOUT_VULKAN, arguments).wait();
+    const std::filesystem::path program = built_program("quorum_without_vulkan");
+    return Program(std::filesystem::exists(program) ? program : built_program("quorum"), arguments).wait();
   }
 };
 

@@ -24,7 +24,7 @@ TEST(MemoryBudget, WhatTheProcessHoldsIsTakenOff) {
 }
 
 TEST(MemoryBudget, FreedMemoryIsThereAgain) {
-  if (kFreedMemoryIsKept) GTEST_SKIP() << "the sanitizer keeps freed memory";
+  if (freed_memory_is_kept()) GTEST_SKIP() << "the sanitizer keeps freed memory";
   const MemoryBudget budget(resident_bytes() + 256 * kMebibyte);
   const std::uint64_t before = budget.left();
   { const std::vector<char> taken(100 * kMebibyte, 1); }

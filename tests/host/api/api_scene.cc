@@ -2,12 +2,6 @@
 
 #include "engine/io/image_file.h"
 
-#ifdef __SANITIZE_ADDRESS__
-// Vulkan loaders and drivers keep what they allocate until the process ends; that is not for us to mend. The sanitizer
-// finds what is visible alone.
-extern "C" [[gnu::visibility("default")]] const char* __asan_default_options() { return "detect_leaks=0"; }
-#endif
-
 namespace quorum {
 
 OwnedArrays arrays_of(const v0::Scene& scene, const std::filesystem::path& folder) {
