@@ -1,5 +1,6 @@
 # The tests: engine (no Vulkan), host and parity (Vulkan), and the command line as a user runs it.
 include(GoogleTest)
+include(LongTests)
 
 # Code of tests is compiled once for two builds: a build with sanitizers takes what the release build compiled, and finds
 # what is wrong in its own engine. Tests take half of the time of all compilers.
@@ -26,23 +27,20 @@ target_link_libraries(quorum_test_support PUBLIC quorum_engine GTest::gtest)
 set_source_files_properties(tests/support/test_support.cc PROPERTIES
   COMPILE_DEFINITIONS QUORUM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 
-# Half of the time of a sanitized test run goes into these, which compare the bytes of whole runs, and of large inputs. The
-# code that they run is also run by smaller tests; they themselves run in the optimized build alone.
-set(long_tests
-  SweepDepth.Rows* SweepDepth.Shared* RefinePlanes.Tiles* FuseViews.Slabs* WorkGuard.* CoarseSweep.FindsTheWalls*
-  CoarseSweep.FindsNothing* FindRangesInside.Gives* RenderTemple.Texture* *Conformance.TheCpu*
-  RunExperiments.* RunMakerTest.RunsThat* RunMakerTest.Scenes* RunMakerTest.Broken* RunMakerTest.ARunIs*
-  PointScene.MeshIs* PointScene.MovedFar* PointScene.AllFormats* PointScene.Bounds*
-  CameraPath.OfA* CameraPath.With* CameraPath.Around*
-  BackendsParity.ImagesOf* BackendsParity.DepthMapsAreEqualWhere* SweepDepth*Parity.Every* SweepDepth*Parity.TheSecond*
-  Reconstruct.MeshIsNear* Reconstruct.Threads* Reconstruct.DepthThenFuse* Reconstruct.FillHoles* Reconstruct.OtherOptions*
-  Reconstruct.Progress* Reconstruct.Vulkan* Reconstruct.ViewsWithout* Reconstruct.SceneWithout* Reconstruct.RenderByError*
-  Plans.Sizes* Report.Names* Report.Where* ApiReconstruct.FilesAnd* ApiReconstruct.MasksOf*)
-set(tests_to_run "*")
-if(QUORUM_SANITIZE)
-  list(JOIN long_tests ":" tests_to_run)
-  string(PREPEND tests_to_run "-")
-endif()
+list(JOIN long_tests ":" long_tests)
+
+# Makes the tests of <name> known: each by itself, or, with sanitizers, a suite at a time, since a process takes longer to
+# start than most tests to run.
+function(quorum_discover_tests name)
+  if(NOT QUORUM_SANITIZE)
+    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 900)
+    return()
+  endif()
+  set(script ${PROJECT_BINARY_DIR}/${name}_suites.cmake)
+  set(program ${PROJECT_BINARY_DIR}/${name})
+  configure_file(cmake/SuitesOfTests.cmake.in ${script} @ONLY)
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})
+endfunction()
 
 function(quorum_test name)
   quorum_test_sources(objects ${name} ${ARGN})
@@ -55,7 +53,7 @@ function(quorum_test name)
   add_executable(${name} ${objects})
   quorum_options(${name} TEST)
   target_link_libraries(${name} PRIVATE quorum_test_support GTest::gtest_main nlohmann_json::nlohmann_json TBB::tbb)
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "${tests_to_run}" PROPERTIES TIMEOUT 900)
+  quorum_discover_tests(${name})
 endfunction()
 
 file(GLOB_RECURSE engine_tests CONFIGURE_DEPENDS tests/engine/*_test.cc)
