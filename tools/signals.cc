@@ -7,7 +7,7 @@
 #include <initializer_list>
 
 #include "engine/core/error.h"
-#include "engine/io/image_file.h"
+#include "engine/io/image_library.h"
 #include "engine/io/temporary_file.h"
 #include "tools/messages.h"
 

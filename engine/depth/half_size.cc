@@ -67,7 +67,8 @@ PlaneRange half_range(const SweepTask& task, int x, int y, uint last_plane) {
 /// Whether the depths around a pixel of the half size go on as its own.
 bool is_inside_patch(const DepthMap& coarse, int x, int y, float most_difference) {
   constexpr int kMargin = 2;
-  if (x < kMargin || y < kMargin || x >= coarse.depth.width - kMargin || y >= coarse.depth.height - kMargin) return false;
+  if (x < kMargin || y < kMargin || x >= coarse.depth.width - kMargin || y >= coarse.depth.height - kMargin)
+    return false;
   const float own = 1.0F / coarse.depth.at(x, y);
   for (int v = y - kMargin; v <= y + kMargin; ++v) {
     for (int u = x - kMargin; u <= x + kMargin; ++u) {

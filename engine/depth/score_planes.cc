@@ -40,7 +40,8 @@ constexpr std::size_t whole_groups(int lanes) {
 
 /// Supports of the batch: their sums, and their samples of the reference.
 [[gnu::always_inline]] inline void read_supports(const PlaneScorer& scorer, const TileSupports& supports,
-                                                 const WindowSumForm& form, const PlaneBatch& batch, ScoreWorkspace& work) {
+                                                 const WindowSumForm& form, const PlaneBatch& batch,
+                                                 ScoreWorkspace& work) {
   const auto lanes = static_cast<std::size_t>(batch.count);
   Lanes<std::int32_t> pixel = {};
   for (std::size_t i = 0; i < lanes; ++i) {

@@ -11,6 +11,7 @@
 #include "engine/io/contact_sheet.h"
 #include "engine/io/image_file.h"
 #include "engine/io/preview.h"
+#include "engine/io/write_image.h"
 #include "engine/mesh/depth_mesh.h"
 #include "engine/render/render.h"
 #include "engine/volume/range_surface.h"

@@ -9,6 +9,7 @@
 #include "engine/io/contact_sheet.h"
 #include "engine/io/file.h"
 #include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 
 namespace quorum {
 namespace {

@@ -9,7 +9,7 @@
 #include "engine/core/version.h"
 #include "engine/io/file.h"
 #include "engine/io/glb_primitive.h"
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 
 namespace quorum {
 namespace {

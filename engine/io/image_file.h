@@ -1,4 +1,4 @@
-// Image files in and out, through OpenCV, which appears in engine/io alone.
+// Image files and masks in, through OpenCV, which appears in engine/io alone.
 #pragma once
 
 #include <filesystem>
@@ -32,24 +32,6 @@ Mask scale_mask(const Mask& mask, int width, int height);
 
 /// Reads a mask file: 1 where the gray value is above 0, 0 elsewhere. Fails as read_image does.
 Expected<Mask> read_mask(const std::filesystem::path& path);
-
-/// An image as the bytes of a PNG file. Fails (kInput) if it is empty or too large for one.
-Expected<std::string> encode_png(const ColorImage& image);
-
-/// The same as JPEG, sides up to 65,535 pixels; quality: 1 to 100.
-Expected<std::string> encode_jpeg(const ColorImage& image, int quality);
-
-/// Writes an image as PNG under path, through a temporary file, so that path never holds half an image.
-/// Fails (kInput) if the image is empty or the file can't be written.
-Expected<void> write_png(const std::filesystem::path& path, const ColorImage& image);
-
-/// The same in the format that the ending of path names: .png, .jpg, .jpeg, .tif, .tiff, .bmp or .webp. Fails (kUsage)
-/// if it is another one.
-Expected<void> write_image(const std::filesystem::path& path, const ColorImage& image);
-
-/// True while a library decodes or encodes an image. Some abort the process where memory runs out (GDAL). May be called
-/// from a signal handler.
-bool is_in_image_library();
 
 /// Background mask of a photograph before a dark background, by the recipe of the Middlebury dino README: pixels whose
 /// brightest channel exceeds level (0..1, of 255) are object; the object is dilated with the disc of radius 10 (pixels

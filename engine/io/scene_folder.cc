@@ -27,9 +27,9 @@
 #include "engine/io/transforms.h"
 #include "engine/io/view_list.h"
 #include "engine/scene/check_bounds.h"
+#include "engine/scene/copies.h"
 #include "engine/scene/limit_image_size.h"
 #include "engine/scene/local_frame.h"
-#include "engine/scene/parallax.h"
 #include "engine/scene/scene_bounds.h"
 
 namespace quorum {

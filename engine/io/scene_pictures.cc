@@ -4,10 +4,10 @@
 #include <set>
 
 #include "engine/io/file.h"
-#include "engine/io/image_file.h"
 #include "engine/io/image_store.h"
 #include "engine/io/output_folder.h"
 #include "engine/io/view_names.h"
+#include "engine/io/write_image.h"
 
 namespace quorum {
 

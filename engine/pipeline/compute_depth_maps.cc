@@ -17,7 +17,7 @@
 #include "engine/io/image_store.h"
 #include "engine/pipeline/provenance.h"
 #include "engine/pipeline/view_loop.h"
-#include "engine/scene/parallax.h"
+#include "engine/scene/copies.h"
 #include "engine/volume/depth_normals.h"
 
 namespace quorum {

@@ -3,10 +3,10 @@
 #include <string>
 
 #include "engine/io/file.h"
-#include "engine/io/image_file.h"
 #include "engine/io/middlebury.h"
 #include "engine/io/ply.h"
 #include "engine/io/text.h"
+#include "engine/io/write_image.h"
 #include "engine/pipeline/run.h"
 
 namespace quorum {

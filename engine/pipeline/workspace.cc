@@ -8,9 +8,9 @@
 
 #include "engine/core/option.h"
 #include "engine/io/file.h"
-#include "engine/io/image_file.h"
 #include "engine/io/pfm.h"
 #include "engine/io/preview.h"
+#include "engine/io/write_image.h"
 
 namespace quorum {
 namespace {

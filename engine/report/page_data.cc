@@ -8,11 +8,11 @@
 
 #include "engine/io/contact_sheet.h"
 #include "engine/io/file.h"
-#include "engine/io/image_file.h"
 #include "engine/io/image_store.h"
 #include "engine/io/ply.h"
 #include "engine/io/preview.h"
 #include "engine/io/sha256.h"
+#include "engine/io/write_image.h"
 #include "engine/mesh/simplify.h"
 #include "engine/report/holes.h"
 #include "engine/report/packed_mesh.h"

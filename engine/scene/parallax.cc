@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/scene/copies.h"
 #include "engine/scene/ray_box.h"
 
 namespace quorum {
@@ -12,11 +13,8 @@ namespace {
 
 constexpr double kRadian = 180.0 / std::numbers::pi;  // in degrees
 constexpr double kWideAngleDeg = 45.0;
-constexpr std::size_t kStride = 7;  // has no factor in common with the points of a ray, so all depths take part
 
 const View& view_at(const Scene& scene, int index) { return scene.views[static_cast<std::size_t>(index)]; }
-
-double focal_pixels(const Camera& camera) { return (camera.intrinsics(0, 0) + camera.intrinsics(1, 1)) / 2.0; }
 
 double chord_angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return 2.0 * std::asin(std::min(1.0, (a - b).norm() / 2.0)) * kRadian;
@@ -28,12 +26,6 @@ double median_or_0(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-bool is_in_image(const View& view, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d pixel = view.camera.project(point);
-  return pixel.z() > 0 && pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() <= view.width - 0.5 &&
-         pixel.y() <= view.height - 0.5;
 }
 
 /// A point of the reference, as a candidate sees it.
@@ -142,60 +134,9 @@ double least_parallax_deg(const Camera& camera) {
 
 double parallax_deg(const std::vector<RayPoint>& points, const Eigen::Vector3d& other_center) {
   std::vector<double> angles;
-  for (std::size_t i = 0; i < points.size(); i += kStride)
+  for (std::size_t i = 0; i < points.size(); i += kRayStride)
     angles.push_back(chord_angle_deg((other_center - points[i].position).normalized(), points[i].to_view));
   return median_or_0(angles);
-}
-
-namespace {
-
-/// parallax_deg(points, other_center) < least_deg, told as soon as half of the points say that it is not, and without
-/// the angles themselves: all pairs of views are asked.
-bool lacks_parallax(const std::vector<RayPoint>& points, const Eigen::Vector3d& other_center, double least_deg) {
-  const double sine = std::sin(least_deg / kRadian);
-  const std::size_t count = (points.size() + kStride - 1) / kStride;
-  std::size_t enough = count - count / 2;  // points that have it, so that the median has it
-  for (std::size_t i = 0; i < points.size(); i += kStride) {
-    const Eigen::Vector3d to_other = other_center - points[i].position;
-    const Eigen::Vector3d& to_view = points[i].to_view;
-    const double dot = to_other.dot(to_view);
-    const double square = to_other.squaredNorm();
-    if (dot > 0 && square - dot * dot < sine * sine * square) continue;
-    if (--enough == 0) return false;
-  }
-  return count > 0;
-}
-
-}  // namespace
-
-bool repeats(const View& view, const std::vector<RayPoint>& points, const View& earlier) {
-  constexpr double kMostTurn = 0.8;  // cosine between the axes; spares the rest for most pairs
-  constexpr double kShare = 0.9;
-  constexpr double kLikeResolution = 1.25;
-  if (points.empty() || view.camera.optical_axis().dot(earlier.camera.optical_axis()) < kMostTurn) return false;
-  const double ratio = focal_pixels(earlier.camera) / focal_pixels(view.camera);
-  if (ratio > kLikeResolution || ratio * kLikeResolution < 1.0) return false;
-  if (!lacks_parallax(points, earlier.camera.center(), least_parallax_deg(view.camera))) return false;
-  const auto seen =
-      std::ranges::count_if(points, [&](const RayPoint& point) { return is_in_image(earlier, point.position); });
-  return static_cast<double>(seen) >= kShare * static_cast<double>(points.size());
-}
-
-bool is_copy(const Scene& scene, int view) {
-  const View& later = view_at(scene, view);
-  if (later.is_copy) return *later.is_copy;
-  const auto points = sample_rays(later, scene.bounds);
-  for (int earlier = 0; earlier < view; ++earlier)
-    if (repeats(later, points, view_at(scene, earlier)) && !is_copy(scene, earlier)) return true;
-  return false;
-}
-
-void mark_copies(Scene& scene) {
-  for (View& view : scene.views) view.is_copy.reset();
-  for (int view = 0; view < static_cast<int>(scene.views.size()); ++view) {
-    const bool copy = is_copy(scene, view);
-    scene.views[static_cast<std::size_t>(view)].is_copy = copy;
-  }
 }
 
 double angle_weight(double angle_deg) {
@@ -205,9 +146,17 @@ double angle_weight(double angle_deg) {
 
 double resolution_weight(double ratio) { return ratio < 1.0 ? ratio : std::min(1.0, 2.0 / ratio); }
 
+double focal_pixels(const Camera& camera) { return (camera.intrinsics(0, 0) + camera.intrinsics(1, 1)) / 2.0; }
+
 double pixels_per_unit(const Camera& camera, const Eigen::Vector3d& point) {
   const double depth = camera.to_camera(point).z();
   return depth > 0 ? focal_pixels(camera) / depth : 0.0;
+}
+
+bool is_in_image(const View& view, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d pixel = view.camera.project(point);
+  return pixel.z() > 0 && pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() <= view.width - 0.5 &&
+         pixel.y() <= view.height - 0.5;
 }
 
 std::vector<int> select_by_parallax(const Scene& scene, int reference, int count, double max_angle_deg) {

@@ -15,6 +15,10 @@ struct RayPoint {
   double pixels_per_unit = 0.0;  ///< of the view, at the point
 };
 
+/// What takes some of the points for all takes every so many-th: no factor in common with the points of a ray, so all
+/// depths take part.
+constexpr std::size_t kRayStride = 7;
+
 /// Points along 8 x 8 rays of the view, 8 on each, evenly in depth where the ray is inside the bounds and the view's
 /// depth range. Empty if no ray meets the bounds.
 std::vector<RayPoint> sample_rays(const View& view, const Bounds& bounds);
@@ -28,21 +32,17 @@ double least_parallax_deg(const Camera& camera);
 /// Median angle under which some of the points see the view's center and another, degrees; 0 without points.
 double parallax_deg(const std::vector<RayPoint>& points, const Eigen::Vector3d& other_center);
 
-/// True if the view shows what the earlier one does, from its place: less parallax than least_parallax_deg, nine tenths
-/// of the points seen, a like resolution. Such a view is no evidence of its own. points: sample_rays of the view.
-bool repeats(const View& view, const std::vector<RayPoint>& points, const View& earlier);
-
-/// True if the view repeats an earlier one of the scene that does not repeat another itself.
-bool is_copy(const Scene& scene, int view);
-/// Says so of all views once, in View::is_copy, so that nobody has to look at all pairs again. What changes cameras or
-/// bounds after that has to do it again.
-void mark_copies(Scene& scene);
-
 /// min(1, (angle / 10 deg)^2): how well two rays fix a point.
 double angle_weight(double angle_deg);
 
 /// ratio: pixels of a neighbor view to one of the reference, along a line. 1 up to twice as fine.
 double resolution_weight(double ratio);
+
+/// Mean of both focal lengths, pixels.
+double focal_pixels(const Camera& camera);
+
+/// Whether the point lies before the view and projects onto a pixel of its image.
+bool is_in_image(const View& view, const Eigen::Vector3d& point);
 
 /// Pixels that show one unit of length at the point; 0 behind the camera.
 double pixels_per_unit(const Camera& camera, const Eigen::Vector3d& point);

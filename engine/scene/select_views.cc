@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/core/option.h"
+#include "engine/scene/copies.h"
 #include "engine/scene/parallax.h"
 
 namespace quorum {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/io/image_file.h"
 #include "engine/io/scene_folder.h"
 #include "engine/io/text.h"
 #include "engine/io/view_names.h"
+#include "engine/io/write_image.h"
 #include "host/api/boundary.h"
 #include "host/api/options_state.h"
 #include "host/api/scene_state.h"

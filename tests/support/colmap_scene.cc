@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 #include "tests/support/test_support.h"
 
 namespace quorum {

@@ -1,6 +1,6 @@
 #include "tests/support/fusion_scene.h"
 
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 #include "tests/support/sphere_scene.h"
 
 namespace quorum {

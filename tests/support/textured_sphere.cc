@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 
 namespace quorum {
 

@@ -1,5 +1,5 @@
 // COLMAP models and plain photographs as a user gives them.
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 #include "tests/support/colmap_scene.h"
 #include "tests/tools/tool_test.h"
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "engine/io/colmap_model.h"
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 #include "tests/support/colmap_scene.h"
 #include "tests/support/test_support.h"
 #include "tests/tools/tool_test.h"

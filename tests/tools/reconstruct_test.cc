@@ -222,8 +222,8 @@ TEST_F(Reconstruct, SceneWithoutNeighborsIsRefused) {
 }
 
 TEST_F(Reconstruct, SigtermStopsTheRunAndLeavesNoHalfFile) {
-  Program program(built_program("quorum"), {"reconstruct", scene().string(), "-o", below("result").string(), "--device", "cpu",
-                                   "--threads", "1", "--step-pixels", "0.05", "--quiet"});
+  Program program(built_program("quorum"), {"reconstruct", scene().string(), "-o", below("result").string(), "--device",
+                                            "cpu", "--threads", "1", "--step-pixels", "0.05", "--quiet"});
   const auto first = below("result") / "depth" / "temple0001.depth.pfm";
   for (int wait = 0; wait < 6000 && !std::filesystem::exists(first); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -130,7 +130,8 @@ TEST_F(Shards, WrongShardsAndOptionsOfTheLastStepAreRefused) {
 
 TEST_F(Shards, WorkAtOnceButNoneTwiceAndNoneBesideARun) {
   synthesize(8, 240);  // so that the first takes a while
-  Program first(built_program("quorum"), command("depth", {"--threads", "1", "--step-pixels", "0.05", "--shard", "1/2"}));
+  Program first(built_program("quorum"),
+                command("depth", {"--threads", "1", "--step-pixels", "0.05", "--shard", "1/2"}));
   const fs::path lock = below("shards") / "shards" / "depth-1-of-2.lock";
   for (int wait = 0; wait < 1000 && !fs::exists(lock); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 #include "tests/engine/io/colmap_test.h"
 #include "tests/engine/io/io_test.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 #include "tests/engine/scene/camera_paths.h"
 #include "tests/engine/scene/path_images.h"
 #include "tests/support/test_support.h"

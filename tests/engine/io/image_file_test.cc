@@ -9,6 +9,7 @@
 
 #include "engine/io/file.h"
 #include "engine/io/image_size.h"
+#include "engine/io/write_image.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/test_support.h"
 

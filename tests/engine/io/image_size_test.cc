@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/test_support.h"
 

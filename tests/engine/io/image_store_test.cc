@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/test_support.h"
 

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 
 #include "engine/io/file.h"
-#include "engine/io/image_file.h"
 #include "engine/io/par_file.h"
+#include "engine/io/write_image.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/test_support.h"
 

@@ -7,8 +7,8 @@
 
 #include "engine/io/colmap.h"
 #include "engine/io/file.h"
-#include "engine/io/image_file.h"
 #include "engine/io/ply.h"
+#include "engine/io/write_image.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/colmap_scene.h"
 #include "tests/support/scene_formats.h"

@@ -15,10 +15,10 @@
 
 #include "engine/camera/pose.h"
 #include "engine/io/file.h"
-#include "engine/io/image_file.h"
 #include "engine/io/opensfm.h"
 #include "engine/io/realitycapture.h"
 #include "engine/io/sfm_formats.h"
+#include "engine/io/write_image.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/test_support.h"
 

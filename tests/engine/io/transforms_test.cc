@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "engine/io/file.h"
-#include "engine/io/image_file.h"
 #include "engine/io/image_store.h"
 #include "engine/io/masks.h"
 #include "engine/io/ply.h"
 #include "engine/io/scene_folder.h"
+#include "engine/io/write_image.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/scene_formats.h"
 #include "tests/support/test_support.h"

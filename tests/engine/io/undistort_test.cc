@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "engine/io/image_file.h"
 #include "engine/io/image_store.h"
+#include "engine/io/write_image.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/test_support.h"
 

@@ -7,6 +7,7 @@
 #include "engine/io/image_file.h"
 #include "engine/io/image_size.h"
 #include "engine/io/jpeg_flaw.h"
+#include "engine/io/write_image.h"
 #include "tests/engine/io/io_test.h"
 #include "tests/support/test_support.h"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/io/image_file.h"
 #include "engine/io/ply.h"
 #include "engine/io/scene_folder.h"
+#include "engine/io/write_image.h"
 #include "engine/pipeline/cpu_backend.h"
 #include "engine/pipeline/reconstruct.h"
 #include "tests/engine/scene/camera_paths.h"

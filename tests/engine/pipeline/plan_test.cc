@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 #include "engine/pipeline/cpu_backend.h"
 #include "engine/pipeline/memory_estimates.h"
 #include "tests/support/sphere_scene.h"

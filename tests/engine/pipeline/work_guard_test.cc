@@ -2,7 +2,7 @@
 // to `quorum bench`.
 #include <gtest/gtest.h>
 
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 #include "engine/pipeline/cpu_backend.h"
 #include "engine/pipeline/reconstruct.h"
 #include "engine/synthetic/temple.h"

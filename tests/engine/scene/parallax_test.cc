@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/scene/copies.h"
 #include "tests/engine/scene/camera_paths.h"
 
 namespace quorum {

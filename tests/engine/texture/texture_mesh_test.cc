@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "engine/io/image_file.h"
+#include "engine/io/write_image.h"
 #include "engine/render/compare_pictures.h"
 #include "engine/render/render.h"
 #include "tests/support/textured_sphere.h"

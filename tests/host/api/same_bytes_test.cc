@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "engine/io/image_file.h"
 #include "engine/io/ply.h"
+#include "engine/io/write_image.h"
 #include "engine/pipeline/workspace.h"
 #include "tests/host/api/api_scene.h"
 
