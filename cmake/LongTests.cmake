@@ -13,4 +13,9 @@ set(long_tests
   Reconstruct.Threads* Reconstruct.DepthThenFuse* Reconstruct.FillHoles* Reconstruct.OtherOptions*
   Reconstruct.Progress* Reconstruct.Vulkan* Reconstruct.ViewsWithout* Reconstruct.SceneWithout*
   Reconstruct.RenderByError* Plans.Sizes* Report.Names* Report.Where* ApiReconstruct.FilesAnd*
-  ApiReconstruct.MasksOf*)
+  ApiReconstruct.MasksOf* ApiReconstruct.TwoRuns* ApiReconstruct.AStopped* ApiPoints.NeighborsOf*
+  Reconstruct.ABudget* Reconstruct.Sigterm* BadInput.CamerasOf* BadInput.MissingBounds* Endings.EachSignal*
+  Endings.Messages* Endings.Results* Endings.TheFirst* Endings.Stacks* Resume.The* Resume.Another* Resume.After*
+  Resume.Left* Resume.FuseRefusesMapsOfMixed* Resume.FuseTakes* Resume.No* Resume.ASecond* Shards.AnyOrder*
+  Shards.MoreShards* Shards.WorkAt* Shards.Options* TextureCommand.AnyNumber* TextureCommand.Obj*
+  TextureCommand.Reconstruct* WithoutVulkan.Results*)
