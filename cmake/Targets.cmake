@@ -58,7 +58,7 @@ function(quorum_options target)
   if(option_TEST)
     # Where so little is optimized, GCC 12 finds these in the standard library's strings.
     target_compile_options(${target} PRIVATE
-      $<$<CONFIG:Release>:-O1> -UNDEBUG -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
+      $<$<CONFIG:Release>:-O1> -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
     set(first quorum_test_support)
     list(APPEND headers <gtest/gtest.h>)
   endif()
