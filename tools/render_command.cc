@@ -5,6 +5,7 @@
 
 #include "engine/core/did_you_mean.h"
 #include "engine/evaluate/color_by_error.h"
+#include "engine/io/file.h"
 #include "engine/io/glb.h"
 #include "engine/io/image_store.h"
 #include "engine/io/ply.h"
@@ -12,6 +13,7 @@
 #include "engine/io/write_image.h"
 #include "engine/render/compare_pictures.h"
 #include "engine/render/render_points.h"
+#include "engine/render/turntable.h"
 #include "tools/add_options.h"
 #include "tools/messages.h"
 
@@ -28,6 +30,7 @@ struct RenderArguments {
   std::filesystem::path truth;
   std::string full_error = "1mm";
   bool compares = false;
+  int turntable = 0;  ///< pictures on the way around; 0: one, from the view
 };
 
 Expected<TexturedMesh> read_any_mesh(const std::filesystem::path& path, const Scene& scene) {
@@ -64,6 +67,29 @@ Expected<void> compare(const Scene& scene, double mask_below, int view, const Co
   return {};
 }
 
+/// whole: as of render_textured; a cloud has none.
+Expected<ColorImage> draw(const TexturedMesh& mesh, const View& view, const Camera& camera,
+                          const RenderOptions& options, Mask* whole = nullptr) {
+  if (mesh.mesh.triangles.empty()) return render_points(mesh.mesh, camera, view.width, view.height, options);
+  return render_textured(mesh, camera, view.width, view.height, options, whole);
+}
+
+/// Pictures from all sides, from the view on, in the folder of the output.
+Expected<void> draw_around(const RenderArguments& arguments, const Scene& scene, const View& view,
+                           const TexturedMesh& mesh, const RenderOptions& options) {
+  std::vector<Camera> cameras;
+  for (const View& any : scene.views) cameras.push_back(any.camera);
+  Eigen::Vector3d up = mean_up(cameras);
+  if (up.isZero()) up = mean_up(std::span(&view.camera, 1));
+  QUORUM_TRY(make_folder(arguments.output));
+  int number = 0;
+  for (const Camera& camera : turntable(view.camera, middle_of(mesh.mesh), up, arguments.turntable)) {
+    QUORUM_ASSIGN(const auto image, draw(mesh, view, camera, options));
+    QUORUM_TRY(write_image(arguments.output / fmt::format("{:04}.png", number++), image));
+  }
+  return {};
+}
+
 Expected<void> render_file(const RenderArguments& arguments) {
   using Shading = RenderOptions::Shading;
   RenderOptions options;
@@ -72,6 +98,8 @@ Expected<void> render_file(const RenderArguments& arguments) {
                     : arguments.shading == "confidence" ? Shading::kConfidence
                     : arguments.shading == "normal"     ? Shading::kNormal
                                                         : Shading::kShaded;
+  if (arguments.turntable > 0 && arguments.compares)
+    return failure(ErrorKind::kUsage, "--compare: the views around have no photographs; leave out --turntable");
   QUORUM_ASSIGN(const auto scene, read_scene(arguments.scene, arguments.options.files));
   std::vector<std::filesystem::path> inputs = {arguments.mesh, arguments.truth};
   for (const View& view : scene.views) inputs.insert(inputs.end(), {view.image_path, view.mask_path});
@@ -92,13 +120,11 @@ Expected<void> render_file(const RenderArguments& arguments) {
     return failure(ErrorKind::kInput,
                    fmt::format("{}: has no vertex, so there is nothing to draw; check the run that made it",
                                arguments.mesh.string()));
-  if (mesh.mesh.triangles.empty()) {
-    if (arguments.compares) return failure(ErrorKind::kUsage, "--compare: takes a surface; a cloud leaves gaps");
-    QUORUM_ASSIGN(const auto image, render_points(mesh.mesh, view->camera, view->width, view->height, options));
-    return write_image(arguments.output, image);
-  }
+  if (arguments.turntable > 0) return draw_around(arguments, scene, *view, mesh, options);
+  if (mesh.mesh.triangles.empty() && arguments.compares)
+    return failure(ErrorKind::kUsage, "--compare: takes a surface; a cloud leaves gaps");
   Mask whole;
-  QUORUM_ASSIGN(const auto image, render_textured(mesh, view->camera, view->width, view->height, options, &whole));
+  QUORUM_ASSIGN(const auto image, draw(mesh, *view, view->camera, options, &whole));
   if (arguments.compares)
     QUORUM_TRY(
         compare(scene, arguments.options.mask_below, static_cast<int>(view - scene.views.begin()), image, whole));
@@ -114,12 +140,16 @@ int render_command(int argc, char** argv) {
   line.add("--scene", arguments.scene, "Folder of the scene").required();
   add_named_options(line, arguments.options, {"format", "images", "model", "masks", "mask-below", "max-image-size"});
   line.add("--view", arguments.view, "Name of the view: its photograph, with or without extension").required();
-  line.add("-o,--output", arguments.output, "Picture: .png, .jpg, .tif, .bmp or .webp").required();
+  line.add("-o,--output", arguments.output, "Picture: .png, .jpg, .tif, .bmp or .webp; a folder with --turntable")
+      .required();
   line.add("--shading", arguments.shading, "What to show")
       .one_of({"shaded", "color", "confidence", "normal", "error"})
       .with_default();
   line.add("--truth", arguments.truth, "PLY file of the true surface, for --shading error");
   line.add("--full-error", arguments.full_error, "Distance from the truth that is drawn red; 0 is blue").with_default();
+  line.add("--turntable", arguments.turntable,
+           "So many pictures on a way around the mesh that begins at the view: 0000.png and on")
+      .between(2, 9999);
   line.add_switch("--compare", arguments.compares,
                   "Tell PSNR and SSIM against the photograph where the mesh is seen; for --shading color");
   return run_command(line, argc, argv, [&] { return render_file(arguments); });

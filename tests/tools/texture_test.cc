@@ -30,6 +30,27 @@ TEST_F(TextureCommand, WritesGlbThatRenderDrawsAsThePhotograph) {
   EXPECT_GT(std::stod(drawn.out.substr(5)), 20) << drawn.out;
 }
 
+TEST_F(TextureCommand, TheTruthIsDrawnFromAllSides) {
+  const auto around = [&](const std::string& count, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {
+        "render",      truth(), "--scene", scene().string(),        "--view", "temple0003",
+        "--turntable", count,   "-o",      below("around").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return quorum_program(arguments);
+  };
+  const ProgramResult done = around("4");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto files = files_below(below("around"));
+  ASSERT_EQ(files.size(), 4U);
+  const ProgramResult one = quorum_program(
+      {"render", truth(), "--scene", scene().string(), "--view", "temple0003", "-o", below("one.png").string()});
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(files.at("0000.png"), file_bytes(below("one.png")));
+  EXPECT_NE(files.at("0002.png"), files.at("0000.png"));
+  expect_failure(around("4", {"--compare"}), 2, {"--compare", "--turntable"});
+  expect_failure(around("1"), 2, {"--turntable"});
+}
+
 TEST_F(TextureCommand, AnyNumberOfThreadsGivesTheSameBytes) {
   ASSERT_EQ(texture("one.glb", {"--threads", "1"}).exit_code, 0);
   ASSERT_EQ(texture("many.glb").exit_code, 0);
