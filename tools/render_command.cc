@@ -74,6 +74,10 @@ Expected<ColorImage> draw(const TexturedMesh& mesh, const View& view, const Came
   return render_textured(mesh, camera, view.width, view.height, options, whole);
 }
 
+std::filesystem::path picture_around(const RenderArguments& arguments, int number) {
+  return arguments.output / fmt::format("{:04}.png", number);
+}
+
 /// Pictures from all sides, from the view on, in the folder of the output.
 Expected<void> draw_around(const RenderArguments& arguments, const Scene& scene, const View& view,
                            const TexturedMesh& mesh, const RenderOptions& options) {
@@ -85,7 +89,7 @@ Expected<void> draw_around(const RenderArguments& arguments, const Scene& scene,
   int number = 0;
   for (const Camera& camera : turntable(view.camera, middle_of(mesh.mesh), up, arguments.turntable)) {
     QUORUM_ASSIGN(const auto image, draw(mesh, view, camera, options));
-    QUORUM_TRY(write_image(arguments.output / fmt::format("{:04}.png", number++), image));
+    QUORUM_TRY(write_image(picture_around(arguments, number++), image));
   }
   return {};
 }
@@ -104,6 +108,8 @@ Expected<void> render_file(const RenderArguments& arguments) {
   std::vector<std::filesystem::path> inputs = {arguments.mesh, arguments.truth};
   for (const View& view : scene.views) inputs.insert(inputs.end(), {view.image_path, view.mask_path});
   QUORUM_TRY(check_not_input(arguments.output, inputs));
+  for (int number = 0; number < arguments.turntable; ++number)
+    QUORUM_TRY(check_not_input(picture_around(arguments, number), inputs));
   const auto is_view = [&](const View& view) {
     return view.name == arguments.view || view.image_name == arguments.view ||
            view.image_path.filename() == arguments.view || view.image_path.stem() == arguments.view;

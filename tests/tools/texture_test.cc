@@ -49,6 +49,10 @@ TEST_F(TextureCommand, TheTruthIsDrawnFromAllSides) {
   EXPECT_NE(files.at("0002.png"), files.at("0000.png"));
   expect_failure(around("4", {"--compare"}), 2, {"--compare", "--turntable"});
   expect_failure(around("1"), 2, {"--turntable"});
+  std::filesystem::copy_file(truth(), below("around") / "0001.png", std::filesystem::copy_options::overwrite_existing);
+  ProgramResult kept = quorum_program({"render", (below("around") / "0001.png").string(), "--scene", scene().string(),
+                                       "--view", "temple0003", "--turntable", "2", "-o", below("around").string()});
+  expect_failure(kept, 2, {"0001.png", "input"});
 }
 
 TEST_F(TextureCommand, AnyNumberOfThreadsGivesTheSameBytes) {
