@@ -1,19 +1,18 @@
 #!/usr/bin/env bash
-# Searches for inputs that break the readers: each fuzzer of tests/fuzz for a while, from the seeds there. Takes the
-# packages clang-19 and libclang-rt-19-dev. Prints a line a fuzzer: what it ran, the edges of the code that it reached
+# Searches for inputs that break the readers: each fuzzer of tests/fuzz for a while, from the seeds there. Prints a line a fuzzer: what it ran, the edges of the code that it reached
 # and what it found; an input that breaks a reader is left in build/fuzz/found, and the exit code is 1.
 #   bash tools/fuzz.sh [SECONDS [FUZZER]...]    30 seconds and all of them, if nothing is said
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
-command -v clang++-19 >/dev/null ||
-  { echo "fuzz: install clang first: apt-get install clang-19 libclang-rt-19-dev" >&2; exit 1; }
+bash tools/install_packages.sh || exit 1
+mkdir -p build
 cmake --preset fuzz >build/fuzz.log && cmake --build --preset fuzz --parallel "$(nproc)" >>build/fuzz.log ||
   { tail -n 20 build/fuzz.log; exit 1; }
 
 seconds="${1:-30}"
 fuzzers=("${@:2}")
-[[ ${#fuzzers[@]} -gt 0 ]] || fuzzers=(scene_fuzz mesh_fuzz map_fuzz image_header_fuzz surface_part_fuzz)
+[[ ${#fuzzers[@]} -gt 0 ]] || mapfile -t fuzzers < <(basename -as .cc tests/fuzz/*_fuzz.cc)
 mkdir -p build/fuzz/found
 # Inputs that lead somewhere new are kept in build/fuzz/corpus and begin the next search.
 fuzz() {

@@ -108,14 +108,17 @@ void add_primitive(ModelReader& reader, const tinygltf::Primitive& primitive, co
   for (std::size_t i = 0; i < count; ++i) {
     Vertex vertex;
     const Eigen::Vector3f position(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
-    if (!position.allFinite()) reader.fail<float>();
     vertex.position = (position.cast<double>() + shift).cast<float>();
     vertex.normal = Eigen::Vector3f(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
     vertex.confidence = confidences[i];
     if (has_colors)
       vertex.color = make_rgb(level_of(colors[4 * i]), level_of(colors[4 * i + 1]), level_of(colors[4 * i + 2]));
+    const Eigen::Vector2f place(places[2 * i], places[2 * i + 1]);
+    const bool is_sound = vertex.position.allFinite() && vertex.normal.allFinite() && vertex.confidence >= 0 &&
+                          std::isfinite(vertex.confidence) && (place.array() >= 0).all() && (place.array() <= 1).all();
+    if (!is_sound) reader.fail<float>();
     mesh.mesh.vertices.push_back(vertex);
-    mesh.coordinates.emplace_back(places[2 * i], places[2 * i + 1]);
+    mesh.coordinates.push_back(place);
   }
   if (primitive.mode == TINYGLTF_MODE_POINTS) return;
   const auto indices =

@@ -46,8 +46,11 @@ Json options_of(const Run& run, RunStage stage) { return options_of(run, stage, 
 
 Json point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
+/// Without what is nested deeper than any record of ours.
 Json parse_record(const std::string& text) {
-  Json record = Json::parse(text, nullptr, false);
+  constexpr int kDeepest = 8;
+  Json record = Json::parse(
+      text, [](int depth, Json::parse_event_t, const Json&) { return depth < kDeepest; }, false);
   return record.is_object() ? record : Json::object();
 }
 
@@ -73,7 +76,7 @@ Expected<void> take_options(RunOptions& options, const Json& given, const std::v
     if (option.most_words == 0 && text == option.text(defaults)) continue;
     QUORUM_TRY(option.parse(options, {text}));
   }
-  return {};
+  return options.check();
 }
 
 /// The first member in which two objects differ, as "window 9"; empty if they don't. other: its value there.

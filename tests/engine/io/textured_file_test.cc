@@ -115,5 +115,21 @@ TEST_F(TexturedFile, DamagedGlbIsRefusedInALine) {
   }
 }
 
+TEST_F(TexturedFile, NumbersThatNoModelOfOursHoldsAreRefused) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<void (*)(TexturedMesh&)> faults = {
+      [](TexturedMesh& mesh) { mesh.coordinates[1].x() = kNan; },
+      [](TexturedMesh& mesh) { mesh.coordinates[1].y() = 2; },
+      [](TexturedMesh& mesh) { mesh.mesh.vertices[1].confidence = kNan; },
+      [](TexturedMesh& mesh) { mesh.mesh.vertices[1].confidence = -1; }};
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    TexturedMesh mesh = four_triangles();
+    faults[i](mesh);
+    const auto read = read_glb(write("odd.glb", mesh));
+    ASSERT_FALSE(read) << i;
+    EXPECT_NE(read.error().message.find("odd.glb: is not as Quorum writes it"), std::string::npos) << i;
+  }
+}
+
 }  // namespace
 }  // namespace quorum
