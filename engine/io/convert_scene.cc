@@ -74,9 +74,22 @@ Expected<void> write_colmap(OutputFolder& output, const SettledScene& settled, c
   return {};
 }
 
+/// transforms.json, with the maps that there are.
+Expected<void> write_frames(OutputFolder& output, const SettledScene& settled, const std::vector<std::string>& names,
+                            const PriorSource& priors) {
+  std::vector<std::string> members(names.size());
+  for (std::size_t i = 0; priors && i < names.size(); ++i) {
+    QUORUM_ASSIGN(const auto maps, priors(settled.scene.views[i]));
+    if (!maps) continue;
+    QUORUM_ASSIGN(members[i], write_prior_maps(output, names[i], *maps));
+  }
+  return write_transforms(output, settled.scene.views, names, settled.centers, members);
+}
+
 }  // namespace
 
-Expected<void> convert_scene(const fs::path& folder, const Scene& scene, ConvertedFormat format) {
+Expected<void> convert_scene(const fs::path& folder, const Scene& scene, ConvertedFormat format,
+                             const PriorSource& priors) {
   for (const View& view : scene.views)
     if (view.camera.intrinsics(0, 1) != 0.0)
       return failure(ErrorKind::kInput,
@@ -91,7 +104,7 @@ Expected<void> convert_scene(const fs::path& folder, const Scene& scene, Convert
   if (format == ConvertedFormat::kMvsnet)
     written = write_mvsnet(output, settled.scene);
   else if (format == ConvertedFormat::kTransforms)
-    written = write_transforms(output, settled.scene.views, names, settled.centers);
+    written = write_frames(output, settled, names, priors);
   else
     written = write_colmap(output, settled, names, format == ConvertedFormat::kColmapText);
   if (!written) return written;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "engine/core/error.h"
+#include "engine/io/prior_maps.h"
 #include "engine/scene/scene.h"
 
 namespace quorum {
@@ -21,9 +22,11 @@ enum class ConvertedFormat {
 /// of which none gives the others back exactly. Therefore each pose is rounded once to one that all of them hold: a
 /// value of R moves by 2e-15 at most, t by about as much of its length, and a principal point whose fraction is finer
 /// than that of its sum with 0.5 to the latter's. Points go to kColmap and kColmapText; depth ranges and neighbors to
-/// kMvsnet, made by select_views and from the bounds where the scene has none; masks nowhere. Fails (kInput) if a
+/// kMvsnet, made by select_views and from the bounds where the scene has none; masks nowhere. priors: for kTransforms,
+/// maps beside the pictures (write_prior_maps). Fails (kInput) as they do, if a
 /// camera has skew, the bounds lie behind one, a photograph can't be read, or a file can't be written or would replace
 /// one that is not ours (OutputFolder).
-Expected<void> convert_scene(const std::filesystem::path& folder, const Scene& scene, ConvertedFormat format);
+Expected<void> convert_scene(const std::filesystem::path& folder, const Scene& scene, ConvertedFormat format,
+                             const PriorSource& priors = {});
 
 }  // namespace quorum

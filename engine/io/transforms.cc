@@ -180,7 +180,8 @@ Expected<Scene> read_transforms(const fs::path& folder, const fs::path& images) 
 }
 
 Expected<void> write_transforms(OutputFolder& output, const std::vector<View>& views,
-                                const std::vector<std::string>& names, const std::vector<Eigen::Vector3d>& centers) {
+                                const std::vector<std::string>& names, const std::vector<Eigen::Vector3d>& centers,
+                                const std::vector<std::string>& members) {
   std::string frames;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Eigen::Matrix3d& r = views[i].camera.camera_from_world;
@@ -192,7 +193,9 @@ Expected<void> write_transforms(OutputFolder& output, const std::vector<View>& v
     frames += "  \"transform_matrix\": [";
     for (int row = 0; row < 3; ++row)
       frames += fmt::format("[{}, {}, {}, {}], ", r(0, row), -r(1, row), -r(2, row), centers[i](row));
-    frames += "[0, 0, 0, 1]]}";
+    frames += "[0, 0, 0, 1]]";
+    if (!members.empty()) frames += members[i];
+    frames += '}';
   }
   return output.write("transforms.json",
                       fmt::format("{{\"camera_model\": \"PINHOLE\", \"frames\": [\n{}]}}\n", frames));

@@ -22,8 +22,10 @@ Expected<Scene> read_transforms(const std::filesystem::path& folder, const std::
 
 /// Writes transforms.json of views whose pictures have these names in the folder's images. centers: of projection;
 /// they stand in the file in place of the translations, which come back as translation_of_center. Numbers are the
-/// shortest that read back as they are. Fails (kInput) if the file can't be written.
+/// shortest that read back as they are. members: text for the frame of each view (write_prior_maps), or empty. Fails
+/// (kInput) if the file can't be written.
 Expected<void> write_transforms(OutputFolder& output, const std::vector<View>& views,
-                                const std::vector<std::string>& names, const std::vector<Eigen::Vector3d>& centers);
+                                const std::vector<std::string>& names, const std::vector<Eigen::Vector3d>& centers,
+                                const std::vector<std::string>& members = {});
 
 }  // namespace quorum

@@ -95,8 +95,8 @@ TEST_F(KeptFiles, ADepthMapThatWasCutIsMadeAnewAndOneThatIsGoneIsTold) {
 }
 
 TEST_F(KeptFiles, FormatsToConvertToAreListed) {
-  expect_failure(quorum_program({"convert", scene().string(), "--to", "nerfstudio", "-o", below("out").string()}), 2,
-                 {"--to nerfstudio: give colmap, colmap-text, mvsnet or transforms"});
+  expect_failure(quorum_program({"convert", scene().string(), "--to", "nerf", "-o", below("out").string()}), 2,
+                 {"--to nerf: give colmap, colmap-text, mvsnet or nerfstudio"});
 }
 
 }  // namespace
