@@ -18,6 +18,15 @@ if(NOT CMAKE_CROSSCOMPILING AND NOT QUORUM_SANITIZE)
   install(FILES ${pages}/completions/quorum.fish
     DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT quorum)
 endif()
+# The program of tools/archive.sh: it finds its libraries beside it, and so do they (DT_RPATH; DT_RUNPATH is not passed on).
+add_executable(quorum_relocatable EXCLUDE_FROM_ALL $<TARGET_OBJECTS:quorum>)
+quorum_options(quorum_relocatable)
+set_target_properties(quorum_relocatable PROPERTIES
+  LINKER_LANGUAGE CXX OUTPUT_NAME quorum RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/relocatable
+  BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN/../lib")
+target_link_options(quorum_relocatable PRIVATE -Wl,--disable-new-dtags)
+quorum_link(quorum_relocatable tools)
+
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/quorum-doc/docs COMPONENT quorum-doc)
 
 set(CPACK_GENERATOR DEB)

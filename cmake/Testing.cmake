@@ -102,3 +102,7 @@ if(TARGET quorum_pages)
   add_test(NAME Pages.NameEveryCommandAndOption
     COMMAND bash ${PROJECT_SOURCE_DIR}/tests/tools/pages_test.sh $<TARGET_FILE:quorum> ${PROJECT_BINARY_DIR}/pages)
 endif()
+if(NOT QUORUM_SANITIZE)
+  add_test(NAME Documents.CommandsRun COMMAND bash ${PROJECT_SOURCE_DIR}/tests/tools/documents_test.sh
+    $<TARGET_FILE:quorum> ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/documents)
+endif()
