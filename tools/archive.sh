@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Makes an archive that runs from any folder of an x86-64 or arm64 Linux with glibc 2.35 or later, without installing
 # anything: the program, its libraries, manual pages and completions.
-#   bash tools/archive.sh    # build/package/quorum-VERSION-linux-MACHINE.tar.xz
+#   bash tools/archive.sh    # build/release/quorum-VERSION-linux-MACHINE.tar.xz
 # The C and C++ libraries and libexpat are the target's, as is all of Vulkan: its drivers are written for them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-build=build/package
+build=build/release
 newest_glibc=2.35
 
-bash tools/build_package.sh quorum_relocatable quorum_pages
+bash tools/install_packages.sh
+cmake --preset release
+cmake --build --preset release --parallel "$(nproc)" --target quorum quorum_relocatable quorum_pages
 version="$(sed -nE 's/^project\(.* VERSION ([0-9.]+) .*/\1/p' CMakeLists.txt)"
 name="quorum-$version-linux-$(uname -m)"
 folder="$build/archive/$name"
@@ -22,9 +24,9 @@ ldd "$build/relocatable/quorum" | awk '$2 == "=>" { print $1, $3 }' | while read
   [[ "$path" == /* ]] || { echo "archive: $library is not here" >&2; exit 1; }
   [[ "$library" =~ $of_target ]] && continue
   cp -L "$path" "$folder/lib/$library"
-  # Who copies a library copies its license.
-  package="$(dpkg-query -S "$(readlink -f "$path")" 2>/dev/null | head -n 1 | cut -d: -f1)"
-  [[ -z "$package" ]] || install -Dm644 "/usr/share/doc/$package/copyright" "$folder/share/doc/libraries/$package"
+  # Who copies a library copies its license. Debian lists some of /usr/lib as of /lib, so its name alone is asked for.
+  package="$(dpkg-query -S "*/$(basename "$(readlink -f "$path")")" | head -n 1 | cut -d: -f1)"
+  install -Dm644 "/usr/share/doc/$package/copyright" "$folder/share/doc/libraries/$package"
 done
 
 # Nothing in it may want a newer C library than it says, or a library that is neither in it nor the target's.

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Searches for inputs that break the readers: each fuzzer of tests/fuzz for a while, from the seeds there. Prints a line a fuzzer: what it ran, the edges of the code that it reached
-# and what it found; an input that breaks a reader is left in build/fuzz/found, and the exit code is 1.
+# Searches for inputs that break the readers: each fuzzer of tests/fuzz for a while, from the seeds there. Prints a line a
+# fuzzer: what it ran, the edges of the code that it reached and what it found; an input that breaks a reader is left in
+# build/fuzz/found, and the exit code is 1.
 #   bash tools/fuzz.sh [SECONDS [FUZZER]...]    30 seconds and all of them, if nothing is said
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
@@ -10,6 +11,7 @@ mkdir -p build
 cmake --preset fuzz >build/fuzz.log && cmake --build --preset fuzz --parallel "$(nproc)" >>build/fuzz.log ||
   { tail -n 20 build/fuzz.log; exit 1; }
 
+export ASAN_OPTIONS="allow_addr2line=1"
 seconds="${1:-30}"
 fuzzers=("${@:2}")
 [[ ${#fuzzers[@]} -gt 0 ]] || mapfile -t fuzzers < <(basename -as .cc tests/fuzz/*_fuzz.cc)

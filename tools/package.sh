@@ -3,7 +3,9 @@
 #   bash tools/package.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-bash tools/build_package.sh
-rm -rf build/package/packages
+launcher=()
+command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+cmake --preset release -B build/package -DCMAKE_INSTALL_PREFIX=/usr -DQUORUM_TESTS=OFF "${launcher[@]}"
+cmake --build build/package --parallel "$(nproc)"
 cd build/package
 cpack -G DEB

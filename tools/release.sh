@@ -19,11 +19,12 @@ if ((!draft)); then
   grep -qE "^## \[$version\] - [0-9]{4}-" CHANGELOG.md || fail "the changelog gives $version no date"
 fi
 
+rm -rf build/package/packages
 bash tools/package.sh
 bash tools/archive.sh
 rm -rf "$out"
 mkdir -p "$out"
-cp build/package/packages/*.deb build/package/quorum-"$version"-linux-*.tar.xz "$out"
+cp build/package/packages/*.deb build/release/quorum-"$version"-linux-*.tar.xz "$out"
 git archive --format=tar --prefix="quorum-$version/" HEAD | xz -6 >"$out/quorum-$version.tar.xz"
 # The changelog's part of this version.
 awk -v head="## [$version]" 'index($0, "## [") == 1 { here = index($0, head) == 1; next } here' CHANGELOG.md >"$out/NOTES.md"

@@ -14,7 +14,7 @@ cmake --preset fuzz -DQUORUM_TEST_OBJECTS="$PWD/build/release" || exit 1
 cmake --build build/fuzz --parallel "$(nproc)" || exit 1
 
 export QUORUM_REQUIRE_DEVICE=1
-export UBSAN_OPTIONS="print_stacktrace=1"
+export UBSAN_OPTIONS="print_stacktrace=1:allow_addr2line=1" ASAN_OPTIONS="allow_addr2line=1"
 failed=0
 bash tools/check.sh || failed=1
 echo "Fuzzing"

@@ -158,7 +158,8 @@ Expected<std::vector<ColmapImage>> parse_colmap_images_txt(const fs::path& path,
     images.push_back(parse_image(fields));
     QUORUM_TRY(fields.done());
     // Blank if the image has no features; editors drop such a line at the end.
-    Fields features(path, lines.number(), lines.next().value_or(""));
+    const auto second_line = lines.next();
+    Fields features(path, lines.number(), second_line.value_or(""));
     images.back().observations = parse_observations(features);
     QUORUM_TRY(features.done());
   }

@@ -21,7 +21,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at, bool little_endi
 
 /// The codes of a WebP file, with what stands before them; empty if it is none.
 std::string_view codes_of_webp(std::string_view bytes) {
-  if (!bytes.starts_with("RIFF") || bytes.substr(0, 12).substr(8) != "WEBP") return {};
+  if (bytes.size() < 12 || !bytes.starts_with("RIFF") || bytes.substr(8, 4) != "WEBP") return {};
   for (std::size_t at = 12; at + 8 <= bytes.size();) {
     const std::string_view kind = bytes.substr(at, 4);
     const std::size_t size = number_at(bytes, at + 4, true);

@@ -14,10 +14,9 @@
 namespace quorum {
 namespace {
 
-/// Keeps the bytes of an image; they are decoded elsewhere.
-bool keep_image_bytes(tinygltf::Image* image, int /*index*/, std::string* /*error*/, std::string* /*warning*/,
-                      int /*width*/, int /*height*/, const unsigned char* bytes, int size, void* /*user*/) {
-  image->image.assign(bytes, bytes + size);
+/// Leaves an image where it is: tinygltf does not look whether its bytes lie inside of the file.
+bool leave_image(tinygltf::Image* /*image*/, int /*index*/, std::string* /*error*/, std::string* /*warning*/,
+                 int /*width*/, int /*height*/, const unsigned char* /*bytes*/, int /*size*/, void* /*user*/) {
   return true;
 }
 
@@ -34,15 +33,24 @@ class ModelReader {
     if (accessor == nullptr || accessor->componentType != component || accessor->type != type ||
         accessor->sparse.isSparse)
       return fail<T>();
-    const tinygltf::BufferView* view = at(model_.bufferViews, accessor->bufferView);
-    if (view == nullptr || view->buffer != 0 || view->byteStride != 0 || accessor->byteOffset != 0) return fail<T>();
-    const std::vector<unsigned char>& data = model_.buffers[0].data;
-    if (accessor->count > view->byteLength / (sizeof(T) * static_cast<std::size_t>(parts)) ||
-        view->byteOffset > data.size() || view->byteLength > data.size() - view->byteOffset)
+    const auto bytes = bytes_of(accessor->bufferView);
+    if (accessor->byteOffset != 0 || accessor->count > bytes.size() / (sizeof(T) * static_cast<std::size_t>(parts)))
       return fail<T>();
     read.resize(accessor->count * static_cast<std::size_t>(parts));
-    if (!read.empty()) std::memcpy(read.data(), data.data() + view->byteOffset, read.size() * sizeof(T));
+    if (!read.empty()) std::memcpy(read.data(), bytes.data(), read.size() * sizeof(T));
     return read;
+  }
+
+  /// What a view of the buffer shows; nothing after a failure.
+  std::span<const unsigned char> bytes_of(int view_index) {
+    const tinygltf::BufferView* view = at(model_.bufferViews, view_index);
+    const std::span<const unsigned char> data = model_.buffers[0].data;
+    if (view == nullptr || view->buffer != 0 || view->byteStride != 0 || view->byteOffset > data.size() ||
+        view->byteLength > data.size() - view->byteOffset) {
+      fail<float>();
+      return {};
+    }
+    return data.subspan(view->byteOffset, view->byteLength);
   }
 
   template <typename T>
@@ -160,7 +168,9 @@ Expected<TexturedMesh> to_mesh(const std::filesystem::path& path, const tinygltf
     add_primitive(reader, primitive, node - mesh.mesh.offset, mesh);
     QUORUM_TRY(reader.done());
     if (image == nullptr) continue;
-    QUORUM_ASSIGN(auto page, decode_image(path, std::string(image->image.begin(), image->image.end())));
+    const auto bytes = reader.bytes_of(image->bufferView);
+    QUORUM_TRY(reader.done());
+    QUORUM_ASSIGN(auto page, decode_image(path, std::string(bytes.begin(), bytes.end())));
     mesh.pages.push_back(std::move(page));
   }
   while (mesh.first_triangles.size() < mesh.pages.size() + 2) {
@@ -177,7 +187,7 @@ Expected<TexturedMesh> to_mesh(const std::filesystem::path& path, const tinygltf
 Expected<TexturedMesh> read_glb(const std::filesystem::path& path, const std::optional<Eigen::Vector3d>& offset) {
   QUORUM_ASSIGN(const auto bytes, read_file(path));
   tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(keep_image_bytes, nullptr);
+  loader.SetImageLoader(leave_image, nullptr);
   tinygltf::Model model;
   std::string error;
   std::string warning;

@@ -3,7 +3,7 @@
 namespace quorum {
 
 bool freed_memory_is_kept() {
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || (defined(__has_feature) && __has_feature(address_sanitizer))
   return true;
 #else
   return false;

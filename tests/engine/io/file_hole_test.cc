@@ -86,7 +86,8 @@ TEST(FileHole, CodesOfWebpAndJpeg2000DoNotEndInZeros) {
     EXPECT_EQ(find_hole(with_zeros(whole, 3000, whole.size())), 3000U);
   }
   EXPECT_FALSE(find_hole(box));
-  EXPECT_FALSE(find_hole(std::string("RIFF\0\0\0\0WEBPVP8 \xff\xff\xff\xff", 20)));
+  const std::string begun("RIFF\0\0\0\0WEBPVP8 \xff\xff\xff\xff", 20);
+  for (std::size_t size = 0; size <= begun.size(); ++size) EXPECT_FALSE(find_hole(begun.substr(0, size))) << size;
 }
 
 }  // namespace

@@ -80,4 +80,4 @@ TEST(HeifFile, AFilmIsNoPhotograph) {
 
 // x265, which writes the picture, keeps a block to the end of the program. LeakSanitizer asks this function.
 extern "C" [[gnu::visibility("default")]] const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:x265_malloc\n"; }
+extern "C" const char* __lsan_default_suppressions() { return "leak:libx265\n"; }

@@ -115,6 +115,25 @@ TEST_F(TexturedFile, DamagedGlbIsRefusedInALine) {
   }
 }
 
+TEST_F(TexturedFile, AnImageBeyondTheFileIsRefused) {
+  std::string bytes = read_file(write("mesh.glb", four_triangles())).value();
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes.data() + 12, 4);
+  auto json = nlohmann::json::parse(bytes.substr(20, size));
+  json["bufferViews"][json["images"][0]["bufferView"].get<std::size_t>()]["byteOffset"] = 1'000'000'000;
+  std::string text = json.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  bytes.replace(20, size, text);
+  const std::array<std::uint32_t, 2> sizes = {static_cast<std::uint32_t>(bytes.size()),
+                                              static_cast<std::uint32_t>(text.size())};
+  std::memcpy(bytes.data() + 8, sizes.data(), sizeof(sizes));
+  ASSERT_TRUE(write_file(folder_.path() / "beyond.glb", bytes));
+  const auto read = read_glb(folder_.path() / "beyond.glb");
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("beyond.glb: is not as Quorum writes it"), std::string::npos)
+      << read.error().message;
+}
+
 TEST_F(TexturedFile, NumbersThatNoModelOfOursHoldsAreRefused) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<void (*)(TexturedMesh&)> faults = {
