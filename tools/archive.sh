@@ -20,19 +20,20 @@ mkdir -p "$folder"/{bin,lib,share}
 cmake --install "$build" --component quorum --prefix "$folder" >/dev/null
 strip -o "$folder/bin/quorum" "$build/relocatable/quorum"
 of_target='^(linux-vdso|ld-linux|lib(c|m|dl|rt|pthread|util|resolv|stdc\+\+|gcc_s|expat))[-.]'
-ldd "$build/relocatable/quorum" | awk '$2 == "=>" { print $1, $3 }' | while read -r library path; do
+while read -r library path; do
   [[ "$path" == /* ]] || { echo "archive: $library is not here" >&2; exit 1; }
-  [[ "$library" =~ $of_target ]] && continue
-  cp -L "$path" "$folder/lib/$library"
-  # Who copies a library copies its license. Debian lists some of /usr/lib as of /lib, so its name alone is asked for.
-  package="$(dpkg-query -S "*/$(basename "$(readlink -f "$path")")" | head -n 1 | cut -d: -f1)"
+  [[ "$library" =~ $of_target ]] || cp -L "$path" "$folder/lib/$library"
+done < <(ldd "$build/relocatable/quorum" | awk '$2 == "=>" { print $1, $3 }')
+# Who copies a library copies its license. Debian lists some of /usr/lib as of /lib, so names alone are asked for.
+mapfile -t names < <(cd "$folder/lib" && for library in *; do echo "*/$library"; done)
+dpkg-query -S "${names[@]}" | cut -d: -f1 | sort -u | while read -r package; do
   install -Dm644 "/usr/share/doc/$package/copyright" "$folder/share/doc/libraries/$package"
 done
 
 # Nothing in it may want a newer C library than it says, or a library that is neither in it nor the target's.
 failed=0
 for file in "$folder/bin/quorum" "$folder"/lib/*; do
-  needed="$(objdump -T "$file" | grep -oE 'GLIBC_2\.[0-9]+' | sed 's/GLIBC_//' | sort -V | tail -n 1)"
+  needed="$(objdump -T "$file" | grep -oE 'GLIBC_2\.[0-9]+' | sed 's/GLIBC_//' | sort -V | tail -n 1 || true)"
   [[ "$(printf '%s\n' "${needed:-2.0}" $newest_glibc | sort -V | tail -n 1)" == "$newest_glibc" ]] ||
     { echo "archive: $(basename "$file") wants glibc $needed" >&2; failed=1; }
   while read -r library; do

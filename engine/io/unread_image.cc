@@ -30,6 +30,31 @@ constexpr Beginning kBeginnings[] = {
     {"%PDF", "is a PDF file; give the photograph itself"},
     {"version https://git-lfs", "is a pointer of Git LFS in place of the photograph; get it with git lfs pull"}};
 
+/// How files begin that are decoded. Whatever else OpenCV may know it hands to libraries for other fields (DICOM,
+/// maps), of which some end the process over a damaged file.
+constexpr std::string_view kDecoded[] = {"\xff\xd8",
+                                         "\x89PNG\r\n\x1a\n",
+                                         std::string_view("II*\0", 4),
+                                         std::string_view("MM\0*", 4),
+                                         std::string_view("II+\0", 4),
+                                         std::string_view("MM\0+", 4),
+                                         "RIFF",
+                                         "BM",
+                                         "P1",
+                                         "P2",
+                                         "P3",
+                                         "P4",
+                                         "P5",
+                                         "P6",
+                                         "P7",
+                                         std::string_view("\0\0\0\x0cjP  ", 8),
+                                         "\xff\x4f\xff\x51"};
+
+bool is_decoded(std::string_view bytes) {
+  if (bytes.starts_with("RIFF") && (bytes.size() < 12 || bytes.substr(8, 4) != "WEBP")) return false;
+  return std::ranges::any_of(kDecoded, [bytes](std::string_view begin) { return bytes.starts_with(begin); });
+}
+
 constexpr std::string_view kRemedy = "copy it again, or save it anew if it looks whole";
 
 std::string damaged_from(int row, int height) {
@@ -66,7 +91,9 @@ std::string why_unread(const std::filesystem::path& path, std::string_view bytes
   if (!is_jpeg && !is_png && std::ranges::count(kRawEndings, folded(path.extension().string())) > 0)
     return "is a raw photograph; develop all of them to TIFF, PNG or JPEG of the same size (darktable-cli, "
            "rawtherapee-cli)";
-  if (!is_whole || is_png || is_heif(bytes)) return {};  // PNG has checksums, which its decoder asks
+  if (!is_whole || is_heif(bytes)) return {};
+  if (!is_decoded(bytes)) return "is damaged or of an unknown kind of image; replace the file";
+  if (is_png) return {};  // PNG has checksums, which its decoder asks
   return is_jpeg ? why_not_whole(bytes) : why_with_holes(bytes);
 }
 

@@ -22,6 +22,17 @@ ColorImage gradient() {
   return image;
 }
 
+TEST(UnreadImage, WhatOtherLibrariesWouldDecodeIsNotHandedToThem) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.png";
+  // GDCM, which OpenCV asks, ends the process over this.
+  write_text(path, std::string("\x89P\x9c\x9c", 4) + std::string(124, '\0') + "DICM" + std::string("\x0b\0\0", 3));
+  expect_bad_input(read_image(path), {"a.png", "unknown kind of image"});
+  expect_bad_input(read_image_size(path), {"a.png"});
+  write_text(path, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\1\1\1\1");
+  expect_bad_input(read_image(path), {"a.png", "unknown kind of image"});
+}
+
 TEST(UnreadImage, AJpegThatWasCutOffIsRefusedNotFilledWithGray) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.jpg";
