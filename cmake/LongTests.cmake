@@ -18,4 +18,4 @@ set(long_tests
   Endings.Messages* Endings.Results* Endings.TheFirst* Endings.Stacks* Resume.The* Resume.Another* Resume.After*
   Resume.Left* Resume.FuseRefusesMapsOfMixed* Resume.FuseTakes* Resume.No* Resume.ASecond* Shards.AnyOrder*
   Shards.MoreShards* Shards.WorkAt* Shards.Options* TextureCommand.AnyNumber* TextureCommand.Obj*
-  TextureCommand.Reconstruct* WithoutVulkan.Results*)
+  TextureCommand.Reconstruct* WithoutVulkan.Results* ConvertWithDepth.*)

@@ -45,6 +45,6 @@ done
 
 # The same bytes from the same files, whoever packs them and when.
 tar -C "$build/archive" --owner=0 --group=0 --numeric-owner --sort=name --mtime=@0 -cf - "$name" |
-  xz -6 -T1 >"$build/$name.tar.xz"
+  xz -6 -T2 >"$build/$name.tar.xz"
 echo "$build/$name.tar.xz: $(find "$folder/lib" -type f | wc -l) libraries," \
   "$(($(stat -c %s "$build/$name.tar.xz") >> 20)) MiB, $(du -sm "$folder" | cut -f1) unpacked"
