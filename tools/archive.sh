@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes an archive that runs from any folder of an x86-64 or arm64 Linux with glibc 2.35 or later, without installing
+# Makes an archive that runs from any folder of a Linux with glibc 2.35 or later and this processor, without installing
 # anything: the program, its libraries, manual pages and completions.
 #   bash tools/archive.sh    # build/release/quorum-VERSION-linux-MACHINE.tar.xz
 # The C and C++ libraries and libexpat are the target's, as is all of Vulkan: its drivers are written for them.

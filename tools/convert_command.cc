@@ -60,8 +60,7 @@ int convert_command(int argc, char** argv) {
   line.add("-o,--output", output, "Folder for the scene; made if missing").required();
   line.add("--with-depth", workspace,
            "Output folder of a run of this scene: its depth maps, normals and certainties are written beside "
-           "transforms.json, "
-           "as NumPy files that nerfstudio reads")
+           "transforms.json, as NumPy files")
       .shown_as("a folder");
   add_named_options(line, options, {"format", "images", "model", "max-image-size", "roi"});
   return run_command(line, argc, argv, [&]() -> Expected<void> {

@@ -85,7 +85,7 @@ Camera parse_pose(RegistrationRow& row) {
 std::function<Lens(ImageSize)> parse_lens(RegistrationRow& row, bool& bends) {
   constexpr double kFilm = 36.0;  // millimeters of the longer side
   const double focal = row.number("f") / kFilm;
-  const Eigen::Vector2d shift = Eigen::Vector2d(row.number("px", true), row.number("py", true)) / kFilm;
+  const Eigen::Vector2d shift = Eigen::Vector2d{row.number("px", true), row.number("py", true)} / kFilm;
   std::array<double, 4> k{};
   for (std::size_t i = 0; i < 4; ++i) k[i] = row.number(fmt::format("k{}", i + 1), true);
   for (const char* tangential : {"t1", "t2"})
