@@ -33,7 +33,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME quorum)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each component has its own
 set(CPACK_PACKAGE_VENDOR Quorum)
-set(CPACK_PACKAGE_CONTACT "The authors of Quorum <quorum@localhost>")
+set(CPACK_PACKAGE_CONTACT "The authors of Quorum <quorum@localhost>" CACHE STRING "Who answers for the packages: NAME <ADDRESS>")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)

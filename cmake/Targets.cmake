@@ -27,13 +27,12 @@ set(warnings -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   "$<$<CXX_COMPILER_ID:Clang>:-Wno-shadow;-Wno-deprecated-declarations;-Wno-overlength-strings>")
 
 # Of undefined behavior, what is checked at every use of a pointer took half of the compiler's time where that was measured.
-# Fuzzers are built to look for it, too; elsewhere a bad pointer is the address sanitizer's to find.
-if(NOT QUORUM_FUZZ)
-  set(unsearched -fno-sanitize=null,alignment,vptr,object-size,nonnull-attribute,returns-nonnull-attribute)
-endif()
+# What fuzzers look into is built to find it, too; elsewhere a bad pointer is the address sanitizer's to find.
+set(unsearched -fno-sanitize=null,alignment,vptr,object-size,nonnull-attribute,returns-nonnull-attribute)
 
 # Folders that read no files: their branches lead no fuzzer anywhere, and counting them takes time.
-set(unguided quorum_depth quorum_evaluate quorum_host quorum_image quorum_render quorum_report quorum_texture quorum_volume)
+set(unguided quorum_bench quorum_conformance quorum_depth quorum_evaluate quorum_host quorum_image quorum_render
+  quorum_report quorum_synthetic quorum_texture quorum_volume)
 
 # Options of a target: warnings, and float arithmetic that is never contracted or reordered, since results are compared
 # byte by byte (docs/architecture.md, "One result everywhere"). All code can go into the shared library, too (Api.cmake),
@@ -44,19 +43,26 @@ function(quorum_options target)
   target_compile_features(${target} PUBLIC cxx_std_23)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PUBLIC Eigen3::Eigen fmt::fmt)  # what headers of the engine show
+  # Eigen's vector code fuses multiplications with additions where a processor can (NEON, -march=native).
+  target_compile_definitions(${target} PUBLIC EIGEN_DONT_VECTORIZE)
   target_compile_options(${target} PRIVATE
     ${warnings} -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<BOOL:${QUORUM_WERROR}>:-Werror>
     -fPIC -fvisibility=hidden -fvisibility-inlines-hidden)
+  set(is_searched FALSE)
+  if(QUORUM_FUZZ AND NOT option_TEST AND NOT target IN_LIST unguided)
+    set(is_searched TRUE)
+    target_compile_options(${target} PRIVATE -fsanitize-coverage=inline-8bit-counters,pc-table,trace-cmp)
+  endif()
   if(QUORUM_SANITIZE)
     target_compile_options(${target} PRIVATE
       -fsanitize=address -fno-omit-frame-pointer
-      $<$<NOT:$<BOOL:${option_TEST}>>:-fsanitize=undefined -fno-sanitize-recover=undefined ${unsearched}>
+      $<$<NOT:$<BOOL:${option_TEST}>>:-fsanitize=undefined -fno-sanitize-recover=undefined>
       # GCC 12 finds this in the standard library where the sanitizers have added code.
       $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    if(NOT is_searched AND NOT option_TEST)
+      target_compile_options(${target} PRIVATE ${unsearched})
+    endif()
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
-  endif()
-  if(QUORUM_FUZZ AND NOT option_TEST AND NOT target IN_LIST unguided)
-    target_compile_options(${target} PRIVATE -fsanitize-coverage=inline-8bit-counters,pc-table,trace-cmp)
   endif()
   set(first quorum_core)  # of those that share its compiled headers
   set(headers ${precompiled_headers})

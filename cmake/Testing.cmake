@@ -6,13 +6,31 @@ include(LongTests)
 # what is wrong in its own engine. Tests take half of the time of all compilers.
 set(QUORUM_TEST_OBJECTS "" CACHE PATH "A build of the same sources: its compiled tests are linked, none is compiled here")
 
-# Sets <result> to the sources, or to their objects in QUORUM_TEST_OBJECTS.
+# Sets <result> to the sources, or to their objects in QUORUM_TEST_OBJECTS. Up to eight files of a folder are compiled at a
+# time, as in the engine: what tests instantiate of others' templates takes longer than they do. So names in anonymous
+# namespaces differ within a folder. A file with definitions of its own is compiled alone.
+set(tests_with_definitions tests/support/test_support.cc)
 function(quorum_test_sources result target)
   set(files ${ARGN})
+  set(objects)
+  foreach(file IN LISTS files)
+    cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE name)
+    if(name IN_LIST tests_with_definitions)
+      list(APPEND objects ${QUORUM_TEST_OBJECTS}/CMakeFiles/${target}.dir/${name}.o)
+      continue()
+    endif()
+    cmake_path(GET name PARENT_PATH folder)
+    string(MAKE_C_IDENTIFIER ${folder} folder)
+    math(EXPR batch "${count_${folder}} + 0" OUTPUT_FORMAT DECIMAL)
+    math(EXPR count_${folder} "${batch} + 1")
+    math(EXPR batch "${batch} / 8")
+    set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${folder}_${batch})
+    list(APPEND objects ${QUORUM_TEST_OBJECTS}/CMakeFiles/${target}.dir/Unity/unity_${folder}_${batch}_cxx.cxx.o)
+  endforeach()
   if(QUORUM_TEST_OBJECTS)
-    list(TRANSFORM files REPLACE "^${PROJECT_SOURCE_DIR}/(.*)$"
-      "${QUORUM_TEST_OBJECTS}/CMakeFiles/${target}.dir/\\1.o")
-    set_source_files_properties(${files} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
+    list(REMOVE_DUPLICATES objects)
+    set_source_files_properties(${objects} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
+    set(files ${objects})
   endif()
   set(${result} ${files} PARENT_SCOPE)
 endfunction()
@@ -21,10 +39,11 @@ file(GLOB support_sources CONFIGURE_DEPENDS tests/support/*.cc)
 list(FILTER support_sources EXCLUDE REGEX "(vulkan_test|vulkan_leaks|sanitizer)\\.cc$")
 quorum_test_sources(support_objects quorum_test_support ${support_sources})
 add_library(quorum_test_support STATIC ${support_objects} tests/support/sanitizer.cc)
+set_target_properties(quorum_test_support PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 quorum_options(quorum_test_support TEST)
 target_link_libraries(quorum_test_support PUBLIC quorum_engine GTest::gtest)
-# For one file alone, so that a compiler cache knows the others in another folder, too.
-set_source_files_properties(tests/support/test_support.cc PROPERTIES
+# So that a compiler cache knows the other files in another folder, too.
+set_source_files_properties(${tests_with_definitions} PROPERTIES
   COMPILE_DEFINITIONS QUORUM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 
 list(JOIN long_tests ":" long_tests)
@@ -51,6 +70,7 @@ function(quorum_test name)
     list(PREPEND objects ${libraries})
   endif()
   add_executable(${name} ${objects})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   quorum_options(${name} TEST)
   target_link_libraries(${name} PRIVATE quorum_test_support GTest::gtest_main nlohmann_json::nlohmann_json TBB::tbb)
   quorum_discover_tests(${name})

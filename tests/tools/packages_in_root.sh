@@ -39,7 +39,8 @@ quorum reconstruct "$work/scene" -o "$work/out" --device cpu --min-component 0 -
 install /debs/*.deb
 tell "all packages"
 python3 /usr/share/doc/quorum-doc/docs/examples/turntable.py
-quietly apt-get purge -q -y quorum libquorum0.1 libquorum-dev python3-quorum quorum-doc
+mapfile -t names < <(for package in /debs/*.deb; do dpkg-deb -f "$package" Package; done)
+quietly apt-get purge -q -y "${names[@]}"
 quietly apt-get autoremove --purge -q -y
 left="$(comm -13 "$work/files" <(files))"
 [[ -z "$left" ]] || { echo "left by purge: $left" && exit 1; }

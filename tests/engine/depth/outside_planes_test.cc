@@ -10,15 +10,15 @@
 namespace quorum {
 namespace {
 
-constexpr int kWidth = 176;
-constexpr int kHeight = 132;
+constexpr int kOutsideWidth = 176;
+constexpr int kOutsideHeight = 132;
 
 std::int64_t depths_of(const SweepTask& task) {
   return std::ranges::count_if(sweep_depth(task, {}).depth.values, [](float depth) { return depth > 0.0F; });
 }
 
 TEST(OutsidePlanes, CoarsePlanesReachFromTheNearEndToInfinity) {
-  const SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, true, 1);
+  const SphereScene sphere = make_sphere_scene(4, kOutsideWidth, kOutsideHeight, true, 1);
   const SweepTask task = make_sphere_task(sphere, 1, {});
   const SweepTask coarse = make_coarse_sphere_task(sphere, 1, task);
   const std::vector<float>& planes = coarse.planes.inverse_depth;
@@ -28,12 +28,12 @@ TEST(OutsidePlanes, CoarsePlanesReachFromTheNearEndToInfinity) {
   EXPECT_TRUE(std::ranges::is_sorted(planes, std::ranges::greater()));
   for (std::size_t i = 1; i + 1 < planes.size(); ++i)
     EXPECT_NEAR(planes[i - 1] - planes[i], 4.0F * task.planes.step(), 1e-6F);
-  EXPECT_EQ(coarse.reference->width, kWidth / 4);
+  EXPECT_EQ(coarse.reference->width, kOutsideWidth / 4);
 }
 
 TEST(OutsidePlanes, WhatLiesBeyondTheBoundsGetsNoDepth) {
   for (const bool flip : {false, true}) {
-    SphereScene sphere = make_sphere_scene(5, kWidth, kHeight, flip, 3);
+    SphereScene sphere = make_sphere_scene(5, kOutsideWidth, kOutsideHeight, flip, 3);
     sphere.scene.bounds = {{-0.7, -0.7, -2.6}, {0.7, 0.7, -1.4}};  // before the sphere
     SweepTask task = make_sphere_task(sphere, 2, {});
     const std::int64_t by_chance = depths_of(task);
@@ -44,7 +44,7 @@ TEST(OutsidePlanes, WhatLiesBeyondTheBoundsGetsNoDepth) {
 }
 
 TEST(OutsidePlanes, WhatLiesInTheBoundsKeepsItsDepth) {
-  const SphereScene sphere = make_sphere_scene(5, kWidth, kHeight, true, 3);
+  const SphereScene sphere = make_sphere_scene(5, kOutsideWidth, kOutsideHeight, true, 3);
   SweepTask task = make_sphere_task(sphere, 2, {});
   const std::int64_t before = depths_of(task);
   EXPECT_GT(before, 4000);
@@ -53,7 +53,7 @@ TEST(OutsidePlanes, WhatLiesInTheBoundsKeepsItsDepth) {
 }
 
 TEST(OutsidePlanes, ASurfaceThatLeavesTheBoundsEndsThere) {
-  SphereScene sphere = make_sphere_scene(5, kWidth, kHeight, false, 3);
+  SphereScene sphere = make_sphere_scene(5, kOutsideWidth, kOutsideHeight, false, 3);
   sphere.scene.bounds = {{-1.05, -1.05, -1.05}, {1.05, 1.05, -0.7}};  // the front of the sphere
   SweepTask task = make_sphere_task(sphere, 2, {});
   look_outside(sphere, 2, task);
@@ -61,8 +61,8 @@ TEST(OutsidePlanes, ASurfaceThatLeavesTheBoundsEndsThere) {
   const View& view = sphere.scene.views[2];
   int right = 0;
   int wrong = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
+  for (int y = 0; y < kOutsideHeight; ++y)
+    for (int x = 0; x < kOutsideWidth; ++x)
       if (const double depth = map.depth.at(x, y); depth > 0.0)
         ++(std::abs(depth - sphere_depth(view, x, y)) < 0.05 ? right : wrong);
   EXPECT_GT(right, 1500);
@@ -70,13 +70,13 @@ TEST(OutsidePlanes, ASurfaceThatLeavesTheBoundsEndsThere) {
 }
 
 TEST(OutsidePlanes, AMaskedPixelAndABlackBackgroundPreferNothing) {
-  const SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, false, 5);
+  const SphereScene sphere = make_sphere_scene(4, kOutsideWidth, kOutsideHeight, false, 5);
   SweepTask task = make_sphere_task(sphere, 1, {});
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth / 2; ++x) task.ranges.at(x, y) = {1, 0};
+  for (int y = 0; y < kOutsideHeight; ++y)
+    for (int x = 0; x < kOutsideWidth / 2; ++x) task.ranges.at(x, y) = {1, 0};
   const SweepTask coarse = make_coarse_sphere_task(sphere, 1, task);
   for (int y = 0; y < coarse.ranges.height; ++y)
-    for (int x = 0; x < kWidth / 8; ++x) EXPECT_GT(coarse.ranges.at(x, y).first, coarse.ranges.at(x, y).last);
+    for (int x = 0; x < kOutsideWidth / 8; ++x) EXPECT_GT(coarse.ranges.at(x, y).first, coarse.ranges.at(x, y).last);
   look_outside(sphere, 1, task);
   int black = 0;
   for (int y = 2; y < task.outside.height - 2; ++y) {

@@ -19,8 +19,8 @@
 namespace quorum {
 namespace {
 
-constexpr int kWidth = 110;
-constexpr int kHeight = 80;
+constexpr int kRefineWidth = 110;
+constexpr int kRefineHeight = 80;
 
 std::vector<SimdLevel> simd_levels() {
   std::vector<SimdLevel> levels;
@@ -49,13 +49,13 @@ PlaneTrial random_plane(std::mt19937& random, const PlaneTrial& around) {
 /// Pixels of a view that see the sphere and whose windows lie in the image.
 template <typename Visit>
 void for_each_sphere_pixel(const View& view, int radius, const Visit& visit) {
-  for (int y = radius; y < kHeight - radius; ++y)
-    for (int x = radius; x < kWidth - radius; ++x)
+  for (int y = radius; y < kRefineHeight - radius; ++y)
+    for (int x = radius; x < kRefineWidth - radius; ++x)
       if (sphere_depth(view, x, y) > 0.0) visit(x, y);
 }
 
 TEST(PlaceWindow, SamplesLieWhereTheHomographyPutsThem) {
-  const SphereScene sphere = make_sphere_scene(3, kWidth, kHeight, true, 1);
+  const SphereScene sphere = make_sphere_scene(3, kRefineWidth, kRefineHeight, true, 1);
   const SweepTask task = make_sphere_task(sphere, 1, {});
   const Camera& reference = sphere.scene.views[1].camera;
   double largest = 0.0;
@@ -67,7 +67,7 @@ TEST(PlaceWindow, SamplesLieWhereTheHomographyPutsThem) {
     for (const std::size_t neighbor : {0U, 1U}) {
       const Camera& other = sphere.scene.views[neighbor == 0 ? 0 : 2].camera;
       const WindowPlacement at = place_window(task.warps[neighbor], x, y, plane.inverse_depth, plane.slope_x,
-                                              plane.slope_y, 2, kWidth, kHeight);
+                                              plane.slope_y, 2, kRefineWidth, kRefineHeight);
       if (!at.seen) continue;
       ++seen;
       for (const auto& [dx, dy] : {std::pair{0, 0}, {-2, -2}, {2, -2}, {-2, 2}, {2, 2}}) {
@@ -86,10 +86,10 @@ TEST(PlaceWindow, SamplesLieWhereTheHomographyPutsThem) {
 }
 
 TEST(PlaceWindow, PlanesThroughTheCameraAndBehindItAreNotSeen) {
-  const SphereScene sphere = make_sphere_scene(2, kWidth, kHeight, false, 1);
+  const SphereScene sphere = make_sphere_scene(2, kRefineWidth, kRefineHeight, false, 1);
   const SweepTask task = make_sphere_task(sphere, 0, {});
   const auto sees = [&](float inverse_depth, float slope_x, float slope_y) {
-    return place_window(task.warps[0], 50, 40, inverse_depth, slope_x, slope_y, 2, kWidth, kHeight).seen;
+    return place_window(task.warps[0], 50, 40, inverse_depth, slope_x, slope_y, 2, kRefineWidth, kRefineHeight).seen;
   };
   EXPECT_TRUE(sees(0.25F, 0.0F, 0.0F));
   EXPECT_FALSE(sees(0.25F, 1e9F, 0.0F));
@@ -104,14 +104,14 @@ TEST(ScorePlanes, ManyAtATimeGiveTheSameBytesAsOne) {
   for (const int window : {3, 5, 9, 15}) {
     SweepOptions options;
     options.window = window;
-    const SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, true, static_cast<unsigned>(window));
+    const SphereScene sphere = make_sphere_scene(4, kRefineWidth, kRefineHeight, true, static_cast<unsigned>(window));
     const SweepTask task = make_sphere_task(sphere, 1, options);
     const Grid<SupportWindow> windows = make_support_windows(*task.reference, window, 40);
     const VoteRule rule = make_vote_rule(options, task.neighbor_count());
     for (const SimdLevel simd : simd_levels()) {
       const PlaneScorer scorer = make_plane_scorer(task, windows, simd);
       TileSupports supports;
-      supports.pack(task, windows, {0, 0, kWidth, kHeight}, simd);
+      supports.pack(task, windows, {0, 0, kRefineWidth, kRefineHeight}, simd);
       std::mt19937 random(7);
       const auto batch = std::make_unique<PlaneBatch>();
       std::vector<PlaneTrial> expected;
@@ -210,7 +210,7 @@ Grid<PixelPlane> refined(const SweepTask& task, const CpuSweepOptions& cpu = {})
 }
 
 TEST(RefinePlanes, FindDepthAndSlopesOfASphereWhereFlatWindowsDoNot) {
-  const SphereScene sphere = make_sphere_scene(5, kWidth, kHeight, true, 3);
+  const SphereScene sphere = make_sphere_scene(5, kRefineWidth, kRefineHeight, true, 3);
   const View& view = sphere.scene.views[2];
   SweepOptions options;
   const Grid<PixelPlane> planes = refined(make_sphere_task(sphere, 2, options));
@@ -236,7 +236,7 @@ TEST(RefinePlanes, FindDepthAndSlopesOfASphereWhereFlatWindowsDoNot) {
 }
 
 TEST(RefinePlanes, NormalsAreThoseOfTheSphere) {
-  const SphereScene sphere = make_sphere_scene(5, kWidth, kHeight, true, 3);
+  const SphereScene sphere = make_sphere_scene(5, kRefineWidth, kRefineHeight, true, 3);
   const View& view = sphere.scene.views[2];
   const DepthMap map = sweep_depth(make_sphere_task(sphere, 2, {}), {});
   int seen = 0;
@@ -256,7 +256,7 @@ TEST(RefinePlanes, NormalsAreThoseOfTheSphere) {
 }
 
 TEST(RefinePlanes, TilesThreadsAndInstructionsDoNotChangeTheBytes) {
-  const SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, true, 4);
+  const SphereScene sphere = make_sphere_scene(4, kRefineWidth, kRefineHeight, true, 4);
   const SweepTask task = make_sphere_task(sphere, 1, {});
   const Grid<PixelPlane> expected = refined(task);
   for (const auto& [tile_width, tile_height] : {std::pair{8, 1}, {16, 64}, {37, 11}}) {
@@ -270,22 +270,23 @@ TEST(RefinePlanes, TilesThreadsAndInstructionsDoNotChangeTheBytes) {
 }
 
 TEST(RefinePlanes, NothingIsFoundWhereNothingCanBe) {
-  SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, false, 5);
+  SphereScene sphere = make_sphere_scene(4, kRefineWidth, kRefineHeight, false, 5);
   const auto expect_none = [](const SweepTask& task) {
     const DepthMap map = sweep_depth(task, {});
     for (const float depth : map.depth.values) ASSERT_EQ(depth, 0.0F);
   };
   SphereScene flat = sphere;
-  for (ColorImage& image : flat.images) image = ColorImage(kWidth, kHeight, make_rgb(90, 90, 90));
+  for (ColorImage& image : flat.images) image = ColorImage(kRefineWidth, kRefineHeight, make_rgb(90, 90, 90));
   expect_none(make_sphere_task(flat, 1, {}));
-  expect_none(make_sphere_task(make_sphere_scene(2, kWidth, kHeight, false, 5), 1, {}));  // one neighbor, two votes
+  expect_none(
+      make_sphere_task(make_sphere_scene(2, kRefineWidth, kRefineHeight, false, 5), 1, {}));  // one neighbor, two votes
   SweepTask empty = make_sphere_task(sphere, 1, {});
   for (PlaneRange& range : empty.ranges.values) range = {1, 0};
   expect_none(empty);
 }
 
 TEST(RefinePlanes, IdenticalPhotographsGiveNumbers) {
-  SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, false, 6);
+  SphereScene sphere = make_sphere_scene(4, kRefineWidth, kRefineHeight, false, 6);
   for (ColorImage& image : sphere.images) image = sphere.images[0];
   const DepthMap map = sweep_depth(make_sphere_task(sphere, 1, {}), {});
   for (std::size_t pixel = 0; pixel < map.depth.values.size(); ++pixel) {

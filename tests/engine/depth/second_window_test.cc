@@ -10,8 +10,8 @@
 namespace quorum {
 namespace {
 
-constexpr int kWidth = 110;
-constexpr int kHeight = 80;
+constexpr int kSecondWidth = 110;
+constexpr int kSecondHeight = 80;
 
 /// A view of the sphere, its depth map, and both maps together.
 struct SecondWindow : ::testing::TestWithParam<WindowModel> {
@@ -27,7 +27,7 @@ struct SecondWindow : ::testing::TestWithParam<WindowModel> {
     take_missing(second, both);
   }
 
-  const SphereScene sphere = make_weak_sphere_scene(4, kWidth, kHeight, 8);
+  const SphereScene sphere = make_weak_sphere_scene(4, kSecondWidth, kSecondHeight, 8);
   SweepTask task;
   SweepTask second_task;
   DepthMap first, second, both;
@@ -51,8 +51,8 @@ TEST_P(SecondWindow, OnlyPixelsWithoutADepthTakeIt) {
 TEST_P(SecondWindow, WhatItFindsLiesOnTheSphere) {
   int taken = 0;
   int right = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kSecondHeight; ++y) {
+    for (int x = 0; x < kSecondWidth; ++x) {
       if (first.depth.at(x, y) != 0.0F || both.depth.at(x, y) == 0.0F) continue;
       const double truth = sphere_depth(sphere.scene.views[1], x, y);
       ++taken;
@@ -66,11 +66,11 @@ TEST_P(SecondWindow, SweepsWherePixelsMissADepthAndWindowsFit) {
   EXPECT_EQ(second_task.options.window, 9);
   std::int64_t swept = 0;
   std::int64_t all = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kSecondHeight; ++y) {
+    for (int x = 0; x < kSecondWidth; ++x) {
       const PlaneRange& range = second_task.ranges.at(x, y);
       const PlaneRange& before = task.ranges.at(x, y);
-      const bool fits = x >= 4 && y >= 4 && x < kWidth - 4 && y < kHeight - 4;
+      const bool fits = x >= 4 && y >= 4 && x < kSecondWidth - 4 && y < kSecondHeight - 4;
       all += before.first <= before.last ? 1 : 0;
       if (range.first <= range.last) {
         ++swept;

@@ -12,8 +12,8 @@
 namespace quorum {
 namespace {
 
-constexpr int kWidth = 120;
-constexpr int kHeight = 90;
+constexpr int kSweepWidth = 120;
+constexpr int kSweepHeight = 90;
 
 bool equal(const PixelVote& a, const PixelVote& b) {
   return a.correlation == b.correlation && a.confidence == b.confidence && a.plane == b.plane;
@@ -54,13 +54,13 @@ void expect_equal(const Grid<PixelVote>& a, const Grid<PixelVote>& b) {
 }
 
 TEST(SweepDepth, FindsTheSphere) {
-  const SphereScene sphere = make_sphere_scene(5, kWidth, kHeight, true, 1);
+  const SphereScene sphere = make_sphere_scene(5, kSweepWidth, kSweepHeight, true, 1);
   const SweepTask task = make_sphere_task(sphere, 2, {});
   const DepthMap map = sweep_depth(task, {});
   int disk = 0;
   int close = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kSweepHeight; ++y) {
+    for (int x = 0; x < kSweepWidth; ++x) {
       const double depth = map.depth.at(x, y);
       EXPECT_EQ(depth > 0, map.correlation.at(x, y) > 0);
       if (depth > 0) {
@@ -70,7 +70,7 @@ TEST(SweepDepth, FindsTheSphere) {
         EXPECT_LE(map.confidence.at(x, y), 1.0F);
       }
       // Away from the silhouette, where the sphere's edge before black correlates instead (the paper, 4.6).
-      if (std::hypot(x - (kWidth - 1) / 2.0, y - (kHeight - 1) / 2.0) > 28.0) continue;
+      if (std::hypot(x - (kSweepWidth - 1) / 2.0, y - (kSweepHeight - 1) / 2.0) > 28.0) continue;
       ++disk;
       close += depth > 0 && std::abs(depth - sphere_depth(sphere.scene.views[2], x, y)) < 0.02 ? 1 : 0;
     }
@@ -80,7 +80,7 @@ TEST(SweepDepth, FindsTheSphere) {
 }
 
 TEST(SweepDepth, TheSecondPassIsCloserToTheTruth) {
-  const SphereScene sphere = make_sphere_scene(5, kWidth, kHeight, false, 1);
+  const SphereScene sphere = make_sphere_scene(5, kSweepWidth, kSweepHeight, false, 1);
   const auto error = [&](int refinement) {
     SweepOptions options;
     options.step_pixels = 1.0;
@@ -100,7 +100,7 @@ TEST(SweepDepth, TheSecondPassIsCloserToTheTruth) {
 }
 
 TEST(SweepDepth, SharedSamplesGiveTheSameBytesAsSingleWindows) {
-  const SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, true, 2);
+  const SphereScene sphere = make_sphere_scene(4, kSweepWidth, kSweepHeight, true, 2);
   for (const int window : {3, 5, 9, 15}) {
     SweepOptions options;
     options.window = window;
@@ -115,7 +115,7 @@ TEST(SweepDepth, SharedSamplesGiveTheSameBytesAsSingleWindows) {
 }
 
 TEST(SweepDepth, RowsOfAxisWindowsGiveTheSameBytesAsSingleWindows) {
-  const SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, false, 2);
+  const SphereScene sphere = make_sphere_scene(4, kSweepWidth, kSweepHeight, false, 2);
   for (const int window : {3, 5, 9, 15}) {
     SweepOptions options;
     options.window = window;
@@ -133,7 +133,7 @@ TEST(SweepDepth, RowsOfAxisWindowsGiveTheSameBytesAsSingleWindows) {
 }
 
 TEST(SweepDepth, TilesThreadsAndInstructionsDoNotChangeTheBytes) {
-  const SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, true, 3);
+  const SphereScene sphere = make_sphere_scene(4, kSweepWidth, kSweepHeight, true, 3);
   const SweepTask task = make_sphere_task(sphere, 1, {});
   const auto expected = sweep_planes(task, task.ranges, task.planes.refinement, {});
   for (const auto& [tile_width, tile_height] : {std::pair{8, 1}, {16, 64}, {64, 64}, {37, 11}}) {
@@ -146,14 +146,14 @@ TEST(SweepDepth, TilesThreadsAndInstructionsDoNotChangeTheBytes) {
 }
 
 TEST(SweepDepth, AxisWindowsFailOnUpsideDownNeighborsAndPlaneWindowsDoNot) {
-  const SphereScene sphere = make_sphere_scene(3, kWidth, kHeight, true, 4);  // view 1 alone is upside down
+  const SphereScene sphere = make_sphere_scene(3, kSweepWidth, kSweepHeight, true, 4);  // view 1 alone is upside down
   const auto found = [&](WindowModel model) {
     SweepOptions options;
     options.window_model = model;
     const DepthMap map = sweep_depth(make_sphere_task(sphere, 1, options), {});
     int close = 0;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x)
+    for (int y = 0; y < kSweepHeight; ++y)
+      for (int x = 0; x < kSweepWidth; ++x)
         close +=
             map.depth.at(x, y) > 0 && std::abs(map.depth.at(x, y) - sphere_depth(sphere.scene.views[1], x, y)) < 0.02;
     return close;
@@ -164,29 +164,29 @@ TEST(SweepDepth, AxisWindowsFailOnUpsideDownNeighborsAndPlaneWindowsDoNot) {
 }
 
 TEST(SweepDepth, AxisWindowsWorkOnUprightNeighbors) {
-  const SphereScene sphere = make_sphere_scene(5, kWidth, kHeight, false, 4);
+  const SphereScene sphere = make_sphere_scene(5, kSweepWidth, kSweepHeight, false, 4);
   SweepOptions options;
   options.window_model = WindowModel::kAxis;
   const DepthMap map = sweep_depth(make_sphere_task(sphere, 2, options), {});
   int close = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
+  for (int y = 0; y < kSweepHeight; ++y)
+    for (int x = 0; x < kSweepWidth; ++x)
       close +=
           map.depth.at(x, y) > 0 && std::abs(map.depth.at(x, y) - sphere_depth(sphere.scene.views[2], x, y)) < 0.02;
   EXPECT_GT(close, 1500);
 }
 
 TEST(SweepDepth, FlatImagesGiveNoDepth) {
-  SphereScene sphere = make_sphere_scene(4, kWidth, kHeight, false, 5);
-  for (ColorImage& image : sphere.images) image = ColorImage(kWidth, kHeight, make_rgb(90, 90, 90));
+  SphereScene sphere = make_sphere_scene(4, kSweepWidth, kSweepHeight, false, 5);
+  for (ColorImage& image : sphere.images) image = ColorImage(kSweepWidth, kSweepHeight, make_rgb(90, 90, 90));
   const DepthMap map = sweep_depth(make_sphere_task(sphere, 1, {}), {});
   for (const float depth : map.depth.values) ASSERT_EQ(depth, 0.0F);
 }
 
 TEST(SweepDepth, OneVoteIsNotEnough) {
-  SphereScene sphere = make_sphere_scene(3, kWidth, kHeight, false, 6);
+  SphereScene sphere = make_sphere_scene(3, kSweepWidth, kSweepHeight, false, 6);
   const SweepTask two = make_sphere_task(sphere, 1, {});
-  sphere.images[2] = ColorImage(kWidth, kHeight, make_rgb(50, 60, 70));  // one neighbor sees nothing
+  sphere.images[2] = ColorImage(kSweepWidth, kSweepHeight, make_rgb(50, 60, 70));  // one neighbor sees nothing
   const DepthMap map = sweep_depth(make_sphere_task(sphere, 1, {}), {});
   for (const float depth : map.depth.values) ASSERT_EQ(depth, 0.0F);
   SweepOptions lenient;

@@ -7,7 +7,7 @@
 namespace quorum {
 namespace {
 
-ColorImage random_image(int width, int height) {
+ColorImage random_colors(int width, int height) {
   ColorImage image(width, height);
   std::mt19937 random(7);
   for (Rgba& pixel : image.values) pixel = static_cast<Rgba>(random()) | 0xff000000U;
@@ -15,7 +15,7 @@ ColorImage random_image(int width, int height) {
 }
 
 TEST(PaddedImage, RepeatsTheLastColumnAndRow) {
-  const ColorImage image = random_image(3, 2);
+  const ColorImage image = random_colors(3, 2);
   const PaddedImage padded = pad_image(image);
   EXPECT_EQ(padded.pixels.size(), 4U * 3U);
   EXPECT_EQ(padded.at(2, 1), image.at(2, 1));

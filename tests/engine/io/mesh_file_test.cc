@@ -12,7 +12,7 @@
 namespace quorum {
 namespace {
 
-Mesh tetrahedron() {
+Mesh tetrahedron_of_colors() {
   Mesh mesh;
   const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, -3.3F}};
   for (const auto& corner : corners) {
@@ -27,7 +27,7 @@ Mesh tetrahedron() {
   return mesh;
 }
 
-std::string written(const std::string& name, const Mesh& mesh = tetrahedron()) {
+std::string written(const std::string& name, const Mesh& mesh = tetrahedron_of_colors()) {
   const TemporaryFolder folder;
   const auto done = write_mesh(folder.path() / name, mesh);
   EXPECT_TRUE(done) << done.error().message;
@@ -84,7 +84,7 @@ TEST(MeshFile, GlbHoldsPositionsUnitNormalsLinearColorsAndConfidence) {
 }
 
 TEST(MeshFile, GlbOfACloudHoldsPoints) {
-  Mesh cloud = tetrahedron();
+  Mesh cloud = tetrahedron_of_colors();
   cloud.triangles.clear();
   const Glb glb(written("cloud.GLB", cloud));
   EXPECT_EQ(glb.json["meshes"][0]["primitives"][0]["mode"], 0);
@@ -108,7 +108,7 @@ TEST(MeshFile, StlHoldsNormalsAndCornersOfTriangles) {
 }
 
 TEST(MeshFile, WhatLiesFarKeepsItsMillimeters) {
-  Mesh mesh = tetrahedron();
+  Mesh mesh = tetrahedron_of_colors();
   mesh.offset = {500000, 5400000, 250};
   EXPECT_NE(written("mesh.obj", mesh).find("v 500001.000000 5400000.000000 250.000000 "), std::string::npos);
   EXPECT_EQ(Glb(written("mesh.glb", mesh)).json["nodes"][0]["translation"], nlohmann::json({500000, 5400000, 250}));
@@ -123,12 +123,12 @@ TEST(MeshFile, WhatLiesFarKeepsItsMillimeters) {
 TEST(MeshFile, OtherEndingsAndWhatAFormatCannotHoldAreRefused) {
   const TemporaryFolder folder;
   for (const char* name : {"mesh.fbx", "mesh", "mesh.ply.gz"}) {
-    const auto refused = write_mesh(folder.path() / name, tetrahedron());
+    const auto refused = write_mesh(folder.path() / name, tetrahedron_of_colors());
     ASSERT_FALSE(refused) << name;
     EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
     EXPECT_NE(refused.error().message.find(".glb"), std::string::npos);
   }
-  Mesh cloud = tetrahedron();
+  Mesh cloud = tetrahedron_of_colors();
   cloud.triangles.clear();
   EXPECT_FALSE(write_mesh(folder.path() / "cloud.stl", cloud));
   EXPECT_FALSE(write_mesh(folder.path() / "empty.glb", Mesh{}));

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kCamera = " 100 0 20 0 100 15 0 0 1 1 0 0 0 1 0 0 0 1 0.1 -0.2 5";
-const std::string kViews = "a.png" + kCamera + "\nb.png" + kCamera + "\nc.png" + kCamera + "\n";
+const std::string kViewLines = "a.png" + kCamera + "\nb.png" + kCamera + "\nc.png" + kCamera + "\n";
 const std::string kReadme = "the tiny set\nThe (tight) bounding box is\n(-1 -2 -0.5)\n(1 2 0.5)\n";
 const std::string kRemedy = "option bounds \"x0 y0 z0 x1 y1 z1\"";
 
@@ -26,7 +26,7 @@ class MiddleburyTest : public testing::Test {
   MiddleburyTest() {
     for (const char* name : {"a.png", "b.png", "c.png"})
       EXPECT_TRUE(write_png(path(name), ColorImage(40, 30, make_rgb(1, 2, 3))));
-    write_text(path("tiny_par.txt"), "3\n" + kViews);
+    write_text(path("tiny_par.txt"), "3\n" + kViewLines);
     write_text(path("README.txt"), kReadme);
   }
 
@@ -87,7 +87,7 @@ TEST_F(Middlebury, CountHeaderOrNeitherMayComeFirst) {
       "imgname k11 k12 k13 k21 k22 k23 k31 k32 k33 r11 r12 r13 r21 r22 r23 r31 r32 r33 t1 t2 t3\n";
   for (const std::string& first : {std::string(), std::string("3\n"), std::string("\n  3 \n\n"), header,
                                    std::string("\"imgname.png k11 ... t3\"\n")}) {
-    const auto scene = read_par(first + kViews + "\n");
+    const auto scene = read_par(first + kViewLines + "\n");
     ASSERT_TRUE(scene) << first << scene.error().message;
     EXPECT_EQ(scene->views.size(), 3U);
   }
@@ -99,7 +99,7 @@ TEST_F(Middlebury, CarriageReturnsAreAccepted) {
     return text;
   };
   write_text(path("README.txt"), with_returns(kReadme));
-  const auto scene = read_par(with_returns("3\n" + kViews));
+  const auto scene = read_par(with_returns("3\n" + kViewLines));
   ASSERT_TRUE(scene) << scene.error().message;
   EXPECT_EQ(scene->views[2].name, "c");
   EXPECT_EQ(scene->bounds.high.z(), 0.5);
@@ -137,11 +137,11 @@ TEST_F(Middlebury, EachViewHasTheSizeOfItsImage) {
 }
 
 TEST_F(Middlebury, CountMustBeThatOfTheLines) {
-  expect_bad_input(read_par("4\n" + kViews), {"tiny_par.txt:1: says 4 views, but 3 follow"});
-  expect_bad_input(read_par("2\n" + kViews), {"tiny_par.txt:1: says 2 views, but 3 follow"});
+  expect_bad_input(read_par("4\n" + kViewLines), {"tiny_par.txt:1: says 4 views, but 3 follow"});
+  expect_bad_input(read_par("2\n" + kViewLines), {"tiny_par.txt:1: says 2 views, but 3 follow"});
   expect_bad_input(read_par("99999999999\n"), {"tiny_par.txt:1: says 99999999999 views, but 0 follow"});
   for (const char* count : {"-3", "3.0", "views"})
-    expect_bad_input(read_par(count + ("\n" + kViews)), {"tiny_par.txt:1: expected a count", count});
+    expect_bad_input(read_par(count + ("\n" + kViewLines)), {"tiny_par.txt:1: expected a count", count});
 }
 
 TEST_F(Middlebury, FewerThanThreeViewsAreRefused) {
@@ -150,23 +150,24 @@ TEST_F(Middlebury, FewerThanThreeViewsAreRefused) {
 }
 
 TEST_F(Middlebury, ImageThatIsTwiceOrAbsentIsNamed) {
-  expect_bad_input(read_par(kViews + "b.png" + kCamera), {"tiny_par.txt:4: the name of image \"b.png\"", "line 2"});
-  const auto partial = read_par("my d.png" + kCamera + "\n" + kViews);
+  expect_bad_input(read_par(kViewLines + "b.png" + kCamera), {"tiny_par.txt:4: the name of image \"b.png\"", "line 2"});
+  const auto partial = read_par("my d.png" + kCamera + "\n" + kViewLines);
   ASSERT_TRUE(partial) << partial.error().message;
   EXPECT_EQ(partial->views.size(), 3U);
   EXPECT_EQ(partial->notes.at(0), "1 of 4 photographs is not there and left out: my d.png");
-  expect_bad_input(read_par(kViews + "x\x1b[1m" + kCamera), {"tiny_par.txt:4", "control characters"});
+  expect_bad_input(read_par(kViewLines + "x\x1b[1m" + kCamera), {"tiny_par.txt:4", "control characters"});
   fs::rename(path("c.png"), path("d.png"));
-  expect_bad_input(read_par(kViews), {"tiny_par.txt:3: image \"c.png\" is not in", folder_.path().string(), "2 of 3"});
+  expect_bad_input(read_par(kViewLines),
+                   {"tiny_par.txt:3: image \"c.png\" is not in", folder_.path().string(), "2 of 3"});
   fs::rename(path("d.png"), path("c.png"));
   write_text(path("a.png"), "no image");
-  expect_bad_input(read_par(kViews), {"a.png: is damaged"});
+  expect_bad_input(read_par(kViewLines), {"a.png: is damaged"});
 }
 
 TEST_F(Middlebury, FolderWithoutExactlyOneParFileIsNamed) {
   expect_bad_input(read_middlebury(path("none"), {}, {}), {"none: no such folder"});
   expect_bad_input(read_middlebury(path("a.png"), {}, {}), {"a.png: is a file, expected the folder"});
-  write_text(path("more_par.txt"), "3\n" + kViews);
+  write_text(path("more_par.txt"), "3\n" + kViewLines);
   expect_bad_input(read(), {"2 par files (more_par.txt, tiny_par.txt)"});
   fs::remove(path("more_par.txt"));
   fs::remove(path("tiny_par.txt"));
@@ -278,7 +279,7 @@ TEST_F(Middlebury, WhatCantBeWrittenIsNamed) {
 }
 
 TEST(ParFile, AnyDamageEndsInProperCamerasOrAnError) {
-  const std::string good = "3\n" + kViews;
+  const std::string good = "3\n" + kViewLines;
   int failures = 0;
   for (std::uint32_t seed = 0; seed < 5000; ++seed) {
     const std::string text = mutate(good, seed);

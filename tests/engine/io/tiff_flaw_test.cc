@@ -26,16 +26,16 @@ struct Kind {
   bool tiled = false;
 };
 
-constexpr int kWidth = 200;
-constexpr int kHeight = 160;
+constexpr int kTiffWidth = 200;
+constexpr int kTiffHeight = 160;
 
 /// The bytes of a file of noise, in strips of 16 rows or tiles of 32 x 16.
 std::string tiff_of(const Kind& kind) {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "a.tif";
   const std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff(TIFFOpen(path.c_str(), "w"), &TIFFClose);
-  TIFFSetField(tiff.get(), TIFFTAG_IMAGEWIDTH, kWidth);
-  TIFFSetField(tiff.get(), TIFFTAG_IMAGELENGTH, kHeight);
+  TIFFSetField(tiff.get(), TIFFTAG_IMAGEWIDTH, kTiffWidth);
+  TIFFSetField(tiff.get(), TIFFTAG_IMAGELENGTH, kTiffHeight);
   TIFFSetField(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, 3);
   TIFFSetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, kind.bits);
   TIFFSetField(tiff.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
@@ -98,13 +98,13 @@ TEST(TiffFlaw, OneThatWasCutOffIsRefusedNotFilledWithBlack) {
   const std::string whole = with_directory_first(tiff_of({}));
   write_text(path, whole);
   ASSERT_TRUE(read_image(path));
-  constexpr std::size_t kStrip = 3 * 16 * kWidth;
+  constexpr std::size_t kStrip = 3 * 16 * kTiffWidth;
   for (const std::size_t strips : {1U, 5U}) {
     const std::string cut = whole.substr(0, whole.size() - strips * kStrip + 1);
     const auto flaw = find_tiff_flaw(cut);
     ASSERT_TRUE(flaw);
-    EXPECT_EQ(flaw->row, kHeight - 16 * static_cast<int>(strips));
-    EXPECT_EQ(flaw->height, kHeight);
+    EXPECT_EQ(flaw->row, kTiffHeight - 16 * static_cast<int>(strips));
+    EXPECT_EQ(flaw->height, kTiffHeight);
     write_text(path, cut);
     expect_bad_input(read_image(path),
                      {"a.tif", fmt::format("from about row {} of 160 on", flaw->row), "copy it again"});
@@ -122,7 +122,7 @@ TEST(TiffFlaw, DamageWithinCompressedOnesIsToldWithItsRow) {
         for (std::size_t i = at; i < at + 256; ++i) damaged[i] = static_cast<char>(random());
         const auto flaw = find_tiff_flaw(damaged);
         ASSERT_TRUE(flaw) << compression << " " << tiled << " " << place;
-        EXPECT_NEAR(flaw->row, place * kHeight, 20) << compression << " " << tiled;
+        EXPECT_NEAR(flaw->row, place * kTiffHeight, 20) << compression << " " << tiled;
       }
     }
   }

@@ -10,7 +10,7 @@
 namespace quorum {
 namespace {
 
-Mesh mesh_of(const View& view, const Grid<float>& depth, const FusionOptions& options = {}) {
+Mesh mesh_of_map(const View& view, const Grid<float>& depth, const FusionOptions& options = {}) {
   return depth_mesh(view.camera, depth,
                     range_surface(depth, make_range_surface_params(view.camera, depth.width, depth.height, options)));
 }
@@ -26,7 +26,7 @@ Grid<float> sphere_map(const View& view) {
 TEST(DepthMesh, LiesOnTheSurfaceAndFacesTheCamera) {
   const SphereScene sphere = make_sphere_scene(2, 90, 70, true, 1);
   for (const View& view : sphere.scene.views) {  // the second is upside down
-    const Mesh mesh = mesh_of(view, sphere_map(view));
+    const Mesh mesh = mesh_of_map(view, sphere_map(view));
     ASSERT_GT(mesh.triangles.size(), 2000U);
     for (const Vertex& vertex : mesh.vertices) EXPECT_NEAR(vertex.position.norm(), kSphereRadius, 1e-4);
     const Eigen::Vector3f center = view.camera.center().cast<float>();
@@ -62,9 +62,9 @@ TEST(DepthMesh, SinglePixelsAndEmptyMapsGiveNothing) {
   const SphereScene sphere = make_sphere_scene(2, 9, 9, false, 1);
   const View& view = sphere.scene.views[0];
   Grid<float> depth(9, 9);
-  EXPECT_TRUE(mesh_of(view, depth).vertices.empty());
+  EXPECT_TRUE(mesh_of_map(view, depth).vertices.empty());
   depth.at(4, 4) = 3.0F;
-  EXPECT_TRUE(mesh_of(view, depth).vertices.empty());
+  EXPECT_TRUE(mesh_of_map(view, depth).vertices.empty());
   EXPECT_TRUE(depth_mesh(view.camera, {}, {}).triangles.empty());
 }
 

@@ -5,7 +5,7 @@
 namespace quorum {
 namespace {
 
-VoxelGrid make_grid() {
+VoxelGrid lattice_grid() {
   VoxelGrid grid;
   grid.voxel_size = 1.0;
   grid.blocks = {3, 3, 3};
@@ -20,17 +20,18 @@ class Lattice {
     for (int z = low[2]; z <= high[2]; ++z)
       for (int y = low[1]; y <= high[1]; ++y)
         for (int x = low[0]; x <= high[0]; ++x)
-          bits_[make_grid().block_index(x / 8, y / 8, z / 8)][static_cast<std::size_t>(z % 8)] |=
+          bits_[lattice_grid().block_index(x / 8, y / 8, z / 8)][static_cast<std::size_t>(z % 8)] |=
               1ULL << (x % 8 + 8 * (y % 8));
   }
   [[nodiscard]] const std::vector<BlockBits>& bits() const { return bits_; }
 
  private:
-  std::vector<BlockBits> bits_ = std::vector<BlockBits>(make_grid().block_count());
+  std::vector<BlockBits> bits_ = std::vector<BlockBits>(lattice_grid().block_count());
 };
 
 bool contains(const std::vector<BlockBits>& bits, int x, int y, int z) {
-  return (bits[make_grid().block_index(x / 8, y / 8, z / 8)][static_cast<std::size_t>(z % 8)] >> (x % 8 + 8 * (y % 8)) &
+  return (bits[lattice_grid().block_index(x / 8, y / 8, z / 8)][static_cast<std::size_t>(z % 8)] >>
+              (x % 8 + 8 * (y % 8)) &
           1) != 0;
 }
 
@@ -38,7 +39,7 @@ TEST(FreeSpace, WideSpaceAtTheBorderIsFreeAndACavityIsNot) {
   Lattice lattice;
   lattice.fill({0, 0, 0}, {23, 23, 5});
   lattice.fill({8, 8, 10}, {15, 15, 17});
-  const auto free = find_free_space(lattice.bits(), make_grid(), {});
+  const auto free = find_free_space(lattice.bits(), lattice_grid(), {});
   Lattice expected;
   expected.fill({0, 0, 0}, {23, 23, 5});
   EXPECT_EQ(free, expected.bits());
@@ -47,8 +48,8 @@ TEST(FreeSpace, WideSpaceAtTheBorderIsFreeAndACavityIsNot) {
 TEST(FreeSpace, ACameraMakesTheSpaceAroundItFree) {
   Lattice lattice;
   lattice.fill({6, 6, 6}, {17, 17, 17});
-  EXPECT_EQ(find_free_space(lattice.bits(), make_grid(), {{11.5, 12.5, 12.0}}), lattice.bits());
-  EXPECT_EQ(find_free_space(lattice.bits(), make_grid(), {{90.0, 12.5, 12.0}}), Lattice().bits());
+  EXPECT_EQ(find_free_space(lattice.bits(), lattice_grid(), {{11.5, 12.5, 12.0}}), lattice.bits());
+  EXPECT_EQ(find_free_space(lattice.bits(), lattice_grid(), {{90.0, 12.5, 12.0}}), Lattice().bits());
 }
 
 TEST(FreeSpace, TunnelsThinnerThanThreeVoxelsLeadNowhere) {
@@ -65,7 +66,7 @@ TEST(FreeSpace, TunnelsThinnerThanThreeVoxelsLeadNowhere) {
       std::array<int, 3> open_high = {23, 23, 23};
       open_high[along] = 5;
       lattice.fill(open_low, open_high);
-      const auto free = find_free_space(lattice.bits(), make_grid(), {});
+      const auto free = find_free_space(lattice.bits(), lattice_grid(), {});
       std::array<int, 3> at = {7, 7, 7};
       const auto is_free = [&](int place) {
         at[along] = place;
@@ -80,7 +81,7 @@ TEST(FreeSpace, TunnelsThinnerThanThreeVoxelsLeadNowhere) {
 }
 
 TEST(FreeSpace, NothingOutsideGivesNoFreeSpace) {
-  EXPECT_EQ(find_free_space(Lattice().bits(), make_grid(), {{1, 1, 1}}), Lattice().bits());
+  EXPECT_EQ(find_free_space(Lattice().bits(), lattice_grid(), {{1, 1, 1}}), Lattice().bits());
 }
 
 }  // namespace

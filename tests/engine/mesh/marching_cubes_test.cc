@@ -19,7 +19,7 @@ constexpr double kRadius = 0.93;
 const Eigen::Vector3d kCenter(2.213, 1.157, -0.391);
 
 /// A lattice of 4 x 3 x 3 blocks around the sphere.
-VoxelGrid make_grid() {
+VoxelGrid cubes_grid() {
   VoxelGrid grid;
   grid.voxel_size = kVoxel;
   grid.truncation = kTruncation;
@@ -59,7 +59,7 @@ BlockPool sphere_pool(const VoxelGrid& grid, Unseen unseen) {
 bool seen_everywhere(int, int, int) { return false; }
 
 TEST(MarchingCubes, ASphereIsClosedWithItsAreaAndVolume) {
-  const VoxelGrid grid = make_grid();
+  const VoxelGrid grid = cubes_grid();
   const BlockPool pool = sphere_pool(grid, seen_everywhere);
   ASSERT_GT(pool.indices.size(), 20U);
   const Mesh mesh = marching_cubes(pool, grid);
@@ -73,7 +73,7 @@ TEST(MarchingCubes, ASphereIsClosedWithItsAreaAndVolume) {
 }
 
 TEST(MarchingCubes, VerticesLieOnTheSphereWithOutwardNormals) {
-  const VoxelGrid grid = make_grid();
+  const VoxelGrid grid = cubes_grid();
   const Mesh mesh = marching_cubes(sphere_pool(grid, seen_everywhere), grid);
   ASSERT_GT(mesh.vertices.size(), 1000U);
   for (const Vertex& vertex : mesh.vertices) {
@@ -85,7 +85,7 @@ TEST(MarchingCubes, VerticesLieOnTheSphereWithOutwardNormals) {
 }
 
 TEST(MarchingCubes, ColorAndConfidenceAreInterpolated) {
-  const VoxelGrid grid = make_grid();
+  const VoxelGrid grid = cubes_grid();
   BlockPool pool = sphere_pool(grid, seen_everywhere);
   const Mesh mesh = marching_cubes(pool, grid);
   for (const Vertex& vertex : mesh.vertices) {
@@ -116,15 +116,15 @@ TEST(MarchingCubes, ColorAndConfidenceAreInterpolated) {
 }
 
 TEST(MarchingCubes, AnEmptyPoolGivesAnEmptyMesh) {
-  const Mesh none = marching_cubes({}, make_grid());
+  const Mesh none = marching_cubes({}, cubes_grid());
   EXPECT_TRUE(none.vertices.empty());
   EXPECT_TRUE(none.triangles.empty());
   BlockPool unseen;
   unseen.indices = {3};
   unseen.voxels.resize(kBlockVoxels);
-  EXPECT_TRUE(marching_cubes(unseen, make_grid()).vertices.empty());
+  EXPECT_TRUE(marching_cubes(unseen, cubes_grid()).vertices.empty());
   for (Voxel& voxel : unseen.voxels) voxel = {255, 255, {}};  // all outside
-  EXPECT_TRUE(marching_cubes(unseen, make_grid()).vertices.empty());
+  EXPECT_TRUE(marching_cubes(unseen, cubes_grid()).vertices.empty());
 }
 
 TEST(MarchingCubes, OneVoxelInsideGivesAnOctahedron) {
@@ -132,7 +132,7 @@ TEST(MarchingCubes, OneVoxelInsideGivesAnOctahedron) {
   pool.indices = {0};
   pool.voxels.assign(kBlockVoxels, {255, 255 * 100, {}});
   pool.voxels[3 + 8 * 4 + 64 * 5].distance = -255 * 100;
-  VoxelGrid grid = make_grid();
+  VoxelGrid grid = cubes_grid();
   grid.origin.setZero();
   grid.voxel_size = 1.0;
   const Mesh mesh = marching_cubes(pool, grid);
@@ -146,7 +146,7 @@ TEST(MarchingCubes, OneVoxelInsideGivesAnOctahedron) {
 }
 
 TEST(MarchingCubes, UnseenVoxelsLeaveHolesAndNoTriangleTouchesThem) {
-  const VoxelGrid grid = make_grid();
+  const VoxelGrid grid = cubes_grid();
   const auto unseen = [](int x, int y, int z) { return (x * 73 + y * 179 + z * 283) % 97 == 0; };
   const BlockPool pool = sphere_pool(grid, unseen);
   const Mesh mesh = marching_cubes(pool, grid);
@@ -170,7 +170,7 @@ TEST(MarchingCubes, UnseenVoxelsLeaveHolesAndNoTriangleTouchesThem) {
 }
 
 TEST(MarchingCubes, AMissingBlockLeavesAHole) {
-  const VoxelGrid grid = make_grid();
+  const VoxelGrid grid = cubes_grid();
   BlockPool pool = sphere_pool(grid, seen_everywhere);
   const Mesh whole = marching_cubes(pool, grid);
   pool.indices.erase(pool.indices.begin() + 4);
@@ -181,7 +181,7 @@ TEST(MarchingCubes, AMissingBlockLeavesAHole) {
 }
 
 TEST(MarchingCubes, PartsGiveTheMeshOfTheWhole) {
-  const VoxelGrid grid = make_grid();
+  const VoxelGrid grid = cubes_grid();
   const BlockPool pool = sphere_pool(grid, [](int x, int y, int z) { return (x * 31 + y * 17 + z * 7) % 101 == 0; });
   const Mesh whole = marching_cubes(pool, grid);
   for (const std::size_t most : {4U, 7U, 15U}) {
@@ -202,7 +202,7 @@ TEST(MarchingCubes, PartsGiveTheMeshOfTheWhole) {
 }
 
 TEST(MarchingCubes, ThreadsDoNotChangeTheBytes) {
-  const VoxelGrid grid = make_grid();
+  const VoxelGrid grid = cubes_grid();
   const BlockPool pool = sphere_pool(grid, [](int x, int y, int z) { return (x * 31 + y * 17 + z * 7) % 101 == 0; });
   const auto with_threads = [&](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);

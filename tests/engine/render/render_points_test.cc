@@ -9,9 +9,9 @@ namespace {
 
 using Shading = RenderOptions::Shading;
 
-constexpr Rgba kWhite = make_rgb(255, 255, 255);
+constexpr Rgba kBackground = make_rgb(255, 255, 255);
 
-Camera test_camera() {
+Camera points_camera() {
   Camera camera;
   camera.intrinsics << 50, 0, 10, 0, 50, 8, 0, 0, 1;
   camera.translation = {0.3, -0.2, 0.5};
@@ -20,11 +20,11 @@ Camera test_camera() {
 
 /// A point seen at a pixel, with its normal in camera axes.
 Vertex point_at(double x, double y, double depth, const Eigen::Vector3f& normal = {0, 0, -1}) {
-  return {test_camera().unproject(x, y, depth).cast<float>(), normal, make_rgb(200, 100, 40), 1.0F};
+  return {points_camera().unproject(x, y, depth).cast<float>(), normal, make_rgb(200, 100, 40), 1.0F};
 }
 
 ColorImage render(const Mesh& cloud, Shading shading = Shading::kColor) {
-  return render_points(cloud, test_camera(), 20, 16, {.shading = shading}).value();
+  return render_points(cloud, points_camera(), 20, 16, {.shading = shading}).value();
 }
 
 TEST(RenderPoints, APointIsASquareOfThreeSamples) {
@@ -34,7 +34,7 @@ TEST(RenderPoints, APointIsASquareOfThreeSamples) {
   EXPECT_EQ(image.at(6, 7), make_rgb(228, 178, 148));
   EXPECT_EQ(image.at(5, 8), make_rgb(228, 178, 148));
   int colored = 0;
-  for (const Rgba pixel : image.values) colored += pixel != kWhite ? 1 : 0;
+  for (const Rgba pixel : image.values) colored += pixel != kBackground ? 1 : 0;
   EXPECT_EQ(colored, 4);
 }
 
@@ -59,10 +59,10 @@ TEST(RenderPoints, WhatIsNotBeforeTheCameraIsLeftOut) {
   Mesh cloud{{point_at(5, 7, -2), point_at(1e9, 7, 2), point_at(-40, 7, 2)}, {}};
   cloud.vertices.push_back(point_at(5, 7, 2));
   cloud.vertices.back().position.x() = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(render(cloud), ColorImage(20, 16, kWhite));
-  EXPECT_EQ(render({}), ColorImage(20, 16, kWhite));
-  EXPECT_TRUE(render_points({}, test_camera(), 0, 0, {}).value().empty());
-  EXPECT_EQ(render_points({}, test_camera(), 4, 4, {.full_confidence = -1}).error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(render(cloud), ColorImage(20, 16, kBackground));
+  EXPECT_EQ(render({}), ColorImage(20, 16, kBackground));
+  EXPECT_TRUE(render_points({}, points_camera(), 0, 0, {}).value().empty());
+  EXPECT_EQ(render_points({}, points_camera(), 4, 4, {.full_confidence = -1}).error().kind, ErrorKind::kUsage);
 }
 
 }  // namespace

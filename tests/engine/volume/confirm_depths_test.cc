@@ -7,14 +7,14 @@ namespace {
 
 constexpr int kSide = 41;
 constexpr int kCenter = kSide / 2;
-constexpr double kFocal = 100;
+constexpr double kConfirmFocal = 100;
 constexpr double kDepth = 2.0;
-constexpr double kFootprint = kDepth / kFocal;
+constexpr double kFootprint = kDepth / kConfirmFocal;
 
 /// Looks along z from x.
 Camera camera_at(double x) {
   Camera camera;
-  camera.intrinsics << kFocal, 0, kCenter, 0, kFocal, kCenter, 0, 0, 1;
+  camera.intrinsics << kConfirmFocal, 0, kCenter, 0, kConfirmFocal, kCenter, 0, 0, 1;
   camera.translation = {-x, 0, 0};
   return camera;
 }
@@ -69,7 +69,7 @@ TEST(ConfirmDepths, ASlantedSurfaceIsInterpolated) {
     ViewDepths view{Grid<float>(kSide, kSide), camera_at(x)};
     for (int v = 0; v < kSide; ++v)
       for (int u = 0; u < kSide; ++u)
-        view.depth.at(u, v) = static_cast<float>((kDepth + x / 2) / (1 - (u - kCenter) / kFocal / 2));
+        view.depth.at(u, v) = static_cast<float>((kDepth + x / 2) / (1 - (u - kCenter) / kConfirmFocal / 2));
     return view;
   };
   const ConfirmTask task{seen_from(0), {seen_from(0.11)}, {}};

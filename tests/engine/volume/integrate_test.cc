@@ -12,11 +12,11 @@
 namespace quorum {
 namespace {
 
-constexpr int kWidth = 81;
-constexpr int kHeight = 61;
+constexpr int kIntegrateWidth = 81;
+constexpr int kIntegrateHeight = 61;
 constexpr std::uint32_t kWeight = 100;
 
-VoxelGrid make_grid() {
+VoxelGrid grid_around() {
   VoxelGrid grid;
   grid.voxel_size = 0.02;
   grid.truncation = 0.08;
@@ -25,7 +25,7 @@ VoxelGrid make_grid() {
   return grid;
 }
 
-std::vector<std::uint32_t> all_blocks(const VoxelGrid& grid) {
+std::vector<std::uint32_t> blocks_of(const VoxelGrid& grid) {
   std::vector<std::uint32_t> blocks(grid.block_count());
   std::iota(blocks.begin(), blocks.end(), 0U);
   return blocks;
@@ -36,12 +36,14 @@ std::vector<Voxel> integrate_map(const Camera& camera, const Grid<float>& depth,
                                  const VoxelGrid& grid, double cosine = 1.0) {
   FusionOptions options;
   options.max_slope_deg = 80;
-  const auto cells = range_surface(depth, make_range_surface_params(camera, kWidth, kHeight, options));
+  const auto cells =
+      range_surface(depth, make_range_surface_params(camera, kIntegrateWidth, kIntegrateHeight, options));
   const auto word = kWeight | static_cast<std::uint32_t>(std::lround(cosine * kCosineScale)) << kWeightBits;
-  const auto blocks = all_blocks(grid);
+  const auto blocks = blocks_of(grid);
   std::vector<Voxel> voxels(blocks.size() * kBlockVoxels);
-  integrate({depth, cells, Grid<std::uint32_t>(kWidth, kHeight, word), pad_image(image)}, find_slots(blocks, blocks),
-            make_integrate_params(camera, kWidth, kHeight, grid), best_simd_level(), voxels);
+  integrate({depth, cells, Grid<std::uint32_t>(kIntegrateWidth, kIntegrateHeight, word), pad_image(image)},
+            find_slots(blocks, blocks), make_integrate_params(camera, kIntegrateWidth, kIntegrateHeight, grid),
+            best_simd_level(), voxels);
   return voxels;
 }
 
@@ -53,18 +55,19 @@ Eigen::Vector3d voxel_position(const VoxelGrid& grid, std::size_t index) {
 }
 
 TEST(Integrate, PlanesGiveTheirDistanceAlongTheLineOfSightTimesTheCosine) {
-  const Camera camera = straight_camera(kWidth, kHeight, 160);
-  const VoxelGrid grid = make_grid();
+  const Camera camera = straight_camera(kIntegrateWidth, kIntegrateHeight, 160);
+  const VoxelGrid grid = grid_around();
   for (const auto& [angle, cosine] : {std::pair{0.0, 1.0}, {50.0, 1.0}, {50.0, 0.625}}) {
     const double slope = std::tan(angle * std::numbers::pi / 180.0);
-    const auto voxels = integrate_map(camera, plane_depth(camera, kWidth, kHeight, 2.0, angle),
-                                      ColorImage(kWidth, kHeight, make_rgb(1, 2, 3)), grid, cosine);
+    const auto voxels = integrate_map(camera, plane_depth(camera, kIntegrateWidth, kIntegrateHeight, 2.0, angle),
+                                      ColorImage(kIntegrateWidth, kIntegrateHeight, make_rgb(1, 2, 3)), grid, cosine);
     int seen = 0;
     int behind = 0;
     for (std::size_t index = 0; index < voxels.size(); ++index) {
       const Eigen::Vector3d position = voxel_position(grid, index);
       const Eigen::Vector3d pixel = camera.project(position);
-      const bool visible = pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < kWidth - 1 && pixel.y() < kHeight - 1;
+      const bool visible =
+          pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < kIntegrateWidth - 1 && pixel.y() < kIntegrateHeight - 1;
       const double on_ray = 2.0 / (1.0 - slope * position.x() / position.z());
       const double distance = (on_ray - position.z()) * (position.norm() / position.z()) * cosine / grid.truncation;
       // Inverse depth is linear on a plane, depth on a triangle: they differ by far less than this.
@@ -87,13 +90,13 @@ TEST(Integrate, PlanesGiveTheirDistanceAlongTheLineOfSightTimesTheCosine) {
 }
 
 TEST(Integrate, ColorsComeFromTheImage) {
-  const Camera camera = straight_camera(kWidth, kHeight, 160);
-  const VoxelGrid grid = make_grid();
-  ColorImage image(kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
+  const Camera camera = straight_camera(kIntegrateWidth, kIntegrateHeight, 160);
+  const VoxelGrid grid = grid_around();
+  ColorImage image(kIntegrateWidth, kIntegrateHeight);
+  for (int y = 0; y < kIntegrateHeight; ++y)
+    for (int x = 0; x < kIntegrateWidth; ++x)
       image.at(x, y) = make_rgb(static_cast<std::uint32_t>(3 * x), static_cast<std::uint32_t>(4 * y), 255);
-  const auto voxels = integrate_map(camera, Grid<float>(kWidth, kHeight, 2.0F), image, grid);
+  const auto voxels = integrate_map(camera, Grid<float>(kIntegrateWidth, kIntegrateHeight, 2.0F), image, grid);
   int seen = 0;
   for (std::size_t index = 0; index < voxels.size(); ++index) {
     const Voxel& voxel = voxels[index];
@@ -109,25 +112,26 @@ TEST(Integrate, ColorsComeFromTheImage) {
 
 /// All voxels around a sphere after the given of its three views.
 std::vector<Voxel> fuse_sphere(std::initializer_list<std::size_t> order, SimdLevel simd = best_simd_level()) {
-  const SphereScene sphere = make_sphere_scene(3, kWidth, kHeight, true, 1);
+  const SphereScene sphere = make_sphere_scene(3, kIntegrateWidth, kIntegrateHeight, true, 1);
   FusionOptions options;
   options.voxel_size = 0.1;
   const VoxelGrid grid = make_voxel_grid(sphere.scene, options).value();
-  const auto blocks = all_blocks(grid);
+  const auto blocks = blocks_of(grid);
   std::vector<Voxel> voxels(blocks.size() * kBlockVoxels);
   for (const std::size_t index : order) {
     const View& view = sphere.scene.views[index];
-    Grid<float> depth(kWidth, kHeight);
-    Grid<std::uint32_t> weights(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    Grid<float> depth(kIntegrateWidth, kIntegrateHeight);
+    Grid<std::uint32_t> weights(kIntegrateWidth, kIntegrateHeight);
+    for (int y = 0; y < kIntegrateHeight; ++y) {
+      for (int x = 0; x < kIntegrateWidth; ++x) {
         depth.at(x, y) = static_cast<float>(sphere_depth(view, x, y));
         weights.at(x, y) = static_cast<std::uint32_t>(1 + (x * 7 + y * 13) % 255);
       }
     }
-    const auto cells = range_surface(depth, make_range_surface_params(view.camera, kWidth, kHeight, options));
+    const auto cells =
+        range_surface(depth, make_range_surface_params(view.camera, kIntegrateWidth, kIntegrateHeight, options));
     integrate({depth, cells, weights, pad_image(sphere.images[index])}, find_slots(blocks, blocks),
-              make_integrate_params(view.camera, kWidth, kHeight, grid), simd, voxels);
+              make_integrate_params(view.camera, kIntegrateWidth, kIntegrateHeight, grid), simd, voxels);
   }
   return voxels;
 }
@@ -161,23 +165,25 @@ TEST(Integrate, TheOrderOfViewsDoesNotMatterAndSumsAddUp) {
 }
 
 TEST(Integrate, NothingIsSeenWithoutSurfaceOrFromBehind) {
-  const Camera camera = straight_camera(kWidth, kHeight, 160);
-  const ColorImage image(kWidth, kHeight, make_rgb(9, 9, 9));
+  const Camera camera = straight_camera(kIntegrateWidth, kIntegrateHeight, 160);
+  const ColorImage image(kIntegrateWidth, kIntegrateHeight, make_rgb(9, 9, 9));
   const auto unseen = [](const Voxel& voxel) { return voxel.weight == 0 && voxel.distance == 0; };
-  EXPECT_TRUE(std::ranges::all_of(integrate_map(camera, Grid<float>(kWidth, kHeight), image, make_grid()), unseen));
-  VoxelGrid behind = make_grid();
+  EXPECT_TRUE(std::ranges::all_of(
+      integrate_map(camera, Grid<float>(kIntegrateWidth, kIntegrateHeight), image, grid_around()), unseen));
+  VoxelGrid behind = grid_around();
   behind.origin.z() = -2.2;
-  EXPECT_TRUE(std::ranges::all_of(integrate_map(camera, Grid<float>(kWidth, kHeight, 2.0F), image, behind), unseen));
+  EXPECT_TRUE(std::ranges::all_of(
+      integrate_map(camera, Grid<float>(kIntegrateWidth, kIntegrateHeight, 2.0F), image, behind), unseen));
 }
 
 TEST(Integrate, OnlyListedBlocksAreTouched) {
-  const Camera camera = straight_camera(kWidth, kHeight, 160);
-  const VoxelGrid grid = make_grid();
-  const Grid<float> depth(kWidth, kHeight, 2.0F);
-  const auto cells = range_surface(depth, {kWidth, kHeight, 0.01F});
-  const Grid<std::uint32_t> weights(kWidth, kHeight, kWeight);
-  const PaddedImage image = pad_image(ColorImage(kWidth, kHeight));
-  const auto params = make_integrate_params(camera, kWidth, kHeight, grid);
+  const Camera camera = straight_camera(kIntegrateWidth, kIntegrateHeight, 160);
+  const VoxelGrid grid = grid_around();
+  const Grid<float> depth(kIntegrateWidth, kIntegrateHeight, 2.0F);
+  const auto cells = range_surface(depth, {kIntegrateWidth, kIntegrateHeight, 0.01F});
+  const Grid<std::uint32_t> weights(kIntegrateWidth, kIntegrateHeight, kWeight);
+  const PaddedImage image = pad_image(ColorImage(kIntegrateWidth, kIntegrateHeight));
+  const auto params = make_integrate_params(camera, kIntegrateWidth, kIntegrateHeight, grid);
   std::vector<Voxel> voxels(3 * kBlockVoxels);
   integrate({depth, cells, weights, image}, {}, params, best_simd_level(), voxels);
   const auto seen_in = [&](std::ptrdiff_t slot) {

@@ -8,7 +8,7 @@
 namespace quorum {
 namespace {
 
-VoxelGrid make_grid() {
+VoxelGrid grid_of_slabs() {
   VoxelGrid grid;
   grid.blocks = {7, 5, 6};
   return grid;
@@ -24,7 +24,7 @@ std::vector<std::uint32_t> some_blocks(const VoxelGrid& grid) {
 }
 
 TEST(Slabs, TogetherHoldEachBlockOnceInOrder) {
-  const VoxelGrid grid = make_grid();
+  const VoxelGrid grid = grid_of_slabs();
   const auto blocks = some_blocks(grid);
   for (const std::size_t most : {std::size_t{4}, std::size_t{9}, std::size_t{30}, blocks.size()}) {
     std::vector<std::uint32_t> cores;
@@ -41,7 +41,7 @@ TEST(Slabs, TogetherHoldEachBlockOnceInOrder) {
 }
 
 TEST(Slabs, HoldTheStoredNeighborsOfTheirCoreAlongEachAxis) {
-  const VoxelGrid grid = make_grid();
+  const VoxelGrid grid = grid_of_slabs();
   const auto blocks = some_blocks(grid);
   const Slab slab = make_slab(blocks, 10, blocks.size(), grid, 30);
   ASSERT_LT(slab.core_count, 30U);
@@ -61,7 +61,7 @@ TEST(Slabs, HoldTheStoredNeighborsOfTheirCoreAlongEachAxis) {
 }
 
 TEST(Slabs, OneHoldsAllWhereThereIsRoom) {
-  const VoxelGrid grid = make_grid();
+  const VoxelGrid grid = grid_of_slabs();
   const auto blocks = some_blocks(grid);
   EXPECT_EQ(make_slab(blocks, 0, blocks.size(), grid, blocks.size()).blocks, blocks);
   EXPECT_EQ(make_slab(blocks, 0, blocks.size(), grid, blocks.size()).core_count, blocks.size());

@@ -7,8 +7,8 @@
 namespace quorum {
 namespace {
 
-constexpr int kSide = 31;
-constexpr int kCenter = kSide / 2;
+constexpr int kWeighSide = 31;
+constexpr int kWeighCenter = kWeighSide / 2;
 
 Grid<std::uint32_t> words_of_surface(const Camera& camera, const Grid<float>& depth, float confidence,
                                      const FusionOptions& options) {
@@ -26,25 +26,25 @@ Grid<std::uint32_t> weigh(const Camera& camera, const Grid<float>& depth, float 
 }
 
 TEST(WeighSurface, AFacingPlaneOfFullConfidenceHasFullWeightWithin) {
-  const Camera camera = straight_camera(kSide, kSide, 1000);
-  const auto weights = weigh(camera, Grid<float>(kSide, kSide, 2.0F), 1.0F, {});
+  const Camera camera = straight_camera(kWeighSide, kWeighSide, 1000);
+  const auto weights = weigh(camera, Grid<float>(kWeighSide, kWeighSide, 2.0F), 1.0F, {});
   const int feather = FusionOptions{}.feather;
-  for (int y = feather; y < kSide - feather; ++y)
-    for (int x = feather; x < kSide - feather; ++x) EXPECT_EQ(weights.at(x, y), 255U) << x << " " << y;
+  for (int y = feather; y < kWeighSide - feather; ++y)
+    for (int x = feather; x < kWeighSide - feather; ++x) EXPECT_EQ(weights.at(x, y), 255U) << x << " " << y;
 }
 
 TEST(WeighSurface, TheWeightIsTheCosineOfTheAngleToTheLineOfSight) {
-  const Camera camera = straight_camera(kSide, kSide, 200);
+  const Camera camera = straight_camera(kWeighSide, kWeighSide, 200);
   FusionOptions options;
   options.max_slope_deg = 85;
   options.feather = 2;
   for (const double angle : {0.0, 30.0, 60.0, -60.0, 75.0}) {
     const double radians = angle * std::numbers::pi / 180.0;
-    const auto weights = weigh(camera, plane_depth(camera, kSide, kSide, 2.0, angle), 1.0F, options);
-    for (int y = 5; y < kSide - 5; ++y) {
-      for (int x = 5; x < kSide - 5; ++x) {
-        const double rx = (x - kCenter) / 200.0;
-        const double ry = (y - kCenter) / 200.0;
+    const auto weights = weigh(camera, plane_depth(camera, kWeighSide, kWeighSide, 2.0, angle), 1.0F, options);
+    for (int y = 5; y < kWeighSide - 5; ++y) {
+      for (int x = 5; x < kWeighSide - 5; ++x) {
+        const double rx = (x - kWeighCenter) / 200.0;
+        const double ry = (y - kWeighCenter) / 200.0;
         const double cosine = (std::cos(radians) - rx * std::sin(radians)) / std::sqrt(rx * rx + ry * ry + 1.0);
         EXPECT_NEAR(weights.at(x, y), 255 * cosine, 1.5) << angle << " degrees at " << x << " " << y;
       }
@@ -53,66 +53,70 @@ TEST(WeighSurface, TheWeightIsTheCosineOfTheAngleToTheLineOfSight) {
 }
 
 TEST(WeighSurface, DistancesAreTakenAlongTheNormalUnlessTheLineOfSightIsAskedFor) {
-  const Camera camera = straight_camera(kSide, kSide, 1000);
+  const Camera camera = straight_camera(kWeighSide, kWeighSide, 1000);
   FusionOptions options;
   options.weigh_slant = false;
   for (const double angle : {0.0, 45.0, 60.0}) {
-    const auto depth = plane_depth(camera, kSide, kSide, 2.0, angle);
+    const auto depth = plane_depth(camera, kWeighSide, kWeighSide, 2.0, angle);
     options.signed_distance = SignedDistance::kNormal;
     const double expected = std::cos(angle * std::numbers::pi / 180.0);
     const auto along_normal = words_of_surface(camera, depth, 1.0F, options);
-    EXPECT_NEAR((along_normal.at(kCenter, kCenter) >> kWeightBits) / static_cast<double>(kCosineScale), expected, 2e-3);
+    EXPECT_NEAR((along_normal.at(kWeighCenter, kWeighCenter) >> kWeightBits) / static_cast<double>(kCosineScale),
+                expected, 2e-3);
     options.signed_distance = SignedDistance::kRay;
-    EXPECT_EQ(words_of_surface(camera, depth, 1.0F, options).at(kCenter, kCenter) >> kWeightBits,
+    EXPECT_EQ(words_of_surface(camera, depth, 1.0F, options).at(kWeighCenter, kWeighCenter) >> kWeightBits,
               static_cast<std::uint32_t>(kCosineScale));
   }
 }
 
 TEST(WeighSurface, SixtyDegreesHalveTheWeight) {
-  const Camera camera = straight_camera(kSide, kSide, 1000);
-  const auto facing = weigh(camera, plane_depth(camera, kSide, kSide, 2.0, 0), 1.0F, {});
-  const auto grazing = weigh(camera, plane_depth(camera, kSide, kSide, 2.0, 60), 1.0F, {});
-  EXPECT_NEAR(grazing.at(kCenter, kCenter), 0.5 * facing.at(kCenter, kCenter), 1.0);
+  const Camera camera = straight_camera(kWeighSide, kWeighSide, 1000);
+  const auto facing = weigh(camera, plane_depth(camera, kWeighSide, kWeighSide, 2.0, 0), 1.0F, {});
+  const auto grazing = weigh(camera, plane_depth(camera, kWeighSide, kWeighSide, 2.0, 60), 1.0F, {});
+  EXPECT_NEAR(grazing.at(kWeighCenter, kWeighCenter), 0.5 * facing.at(kWeighCenter, kWeighCenter), 1.0);
 }
 
 TEST(WeighSurface, WeightsRiseFromTheBorderOverTheFeather) {
-  const Camera camera = straight_camera(kSide, kSide, 1000);
+  const Camera camera = straight_camera(kWeighSide, kWeighSide, 1000);
   for (const int feather : {1, 4, 8}) {
     FusionOptions options;
     options.feather = feather;
-    const auto weights = weigh(camera, Grid<float>(kSide, kSide, 2.0F), 1.0F, options);
+    const auto weights = weigh(camera, Grid<float>(kWeighSide, kWeighSide, 2.0F), 1.0F, options);
     for (int x = 0; x < feather; ++x) {
-      EXPECT_LT(weights.at(x, kCenter), weights.at(x + 1, kCenter)) << "left, feather " << feather;
-      EXPECT_LT(weights.at(kCenter, x), weights.at(kCenter, x + 1)) << "top, feather " << feather;
-      EXPECT_EQ(weights.at(x, kCenter), weights.at(kSide - 1 - x, kCenter)) << "right, feather " << feather;
-      EXPECT_EQ(weights.at(x, kCenter), weights.at(kCenter, kSide - 1 - x)) << "bottom, feather " << feather;
+      EXPECT_LT(weights.at(x, kWeighCenter), weights.at(x + 1, kWeighCenter)) << "left, feather " << feather;
+      EXPECT_LT(weights.at(kWeighCenter, x), weights.at(kWeighCenter, x + 1)) << "top, feather " << feather;
+      EXPECT_EQ(weights.at(x, kWeighCenter), weights.at(kWeighSide - 1 - x, kWeighCenter))
+          << "right, feather " << feather;
+      EXPECT_EQ(weights.at(x, kWeighCenter), weights.at(kWeighCenter, kWeighSide - 1 - x))
+          << "bottom, feather " << feather;
     }
-    EXPECT_EQ(weights.at(feather, kCenter), 255U);
+    EXPECT_EQ(weights.at(feather, kWeighCenter), 255U);
   }
 }
 
 TEST(WeighSurface, AHoleIsABorderToo) {
-  const Camera camera = straight_camera(kSide, kSide, 1000);
-  Grid<float> depth(kSide, kSide, 2.0F);
-  depth.at(kCenter, kCenter) = 0.0F;
+  const Camera camera = straight_camera(kWeighSide, kWeighSide, 1000);
+  Grid<float> depth(kWeighSide, kWeighSide, 2.0F);
+  depth.at(kWeighCenter, kWeighCenter) = 0.0F;
   FusionOptions options;
   options.feather = 4;
   const auto weights = weigh(camera, depth, 1.0F, options);
-  EXPECT_EQ(weights.at(kCenter, kCenter), 0U);
-  for (int x = kCenter + 1; x < kCenter + 4; ++x) EXPECT_LT(weights.at(x, kCenter), weights.at(x + 1, kCenter));
+  EXPECT_EQ(weights.at(kWeighCenter, kWeighCenter), 0U);
+  for (int x = kWeighCenter + 1; x < kWeighCenter + 4; ++x)
+    EXPECT_LT(weights.at(x, kWeighCenter), weights.at(x + 1, kWeighCenter));
 }
 
 TEST(WeighSurface, NoFeatherMeansFullWeightAtTheBorder) {
-  const Camera camera = straight_camera(kSide, kSide, 1000);
+  const Camera camera = straight_camera(kWeighSide, kWeighSide, 1000);
   FusionOptions options;
   options.feather = 0;
-  for (const std::uint32_t weight : weigh(camera, Grid<float>(kSide, kSide, 2.0F), 1.0F, options).values)
+  for (const std::uint32_t weight : weigh(camera, Grid<float>(kWeighSide, kWeighSide, 2.0F), 1.0F, options).values)
     EXPECT_EQ(weight, 255U);
 }
 
 TEST(WeighSurface, IsProportionalToTheConfidence) {
-  const Camera camera = straight_camera(kSide, kSide, 500);
-  const auto depth = plane_depth(camera, kSide, kSide, 2.0, 40);
+  const Camera camera = straight_camera(kWeighSide, kWeighSide, 500);
+  const auto depth = plane_depth(camera, kWeighSide, kWeighSide, 2.0, 40);
   const auto full = weigh(camera, depth, 1.0F, {});
   for (const float confidence : {0.25F, 0.5F, 0.9F}) {
     const auto weights = weigh(camera, depth, confidence, {});
@@ -122,18 +126,18 @@ TEST(WeighSurface, IsProportionalToTheConfidence) {
 }
 
 TEST(WeighSurface, FactorsCanBeLeftOut) {
-  const Camera camera = straight_camera(kSide, kSide, 1000);
-  const auto grazing = plane_depth(camera, kSide, kSide, 2.0, 60);
+  const Camera camera = straight_camera(kWeighSide, kWeighSide, 1000);
+  const auto grazing = plane_depth(camera, kWeighSide, kWeighSide, 2.0, 60);
   FusionOptions options;
   options.feather = 4;
-  EXPECT_NEAR(weigh(camera, grazing, 0.5F, options).at(kCenter, kCenter), 64, 1);
+  EXPECT_NEAR(weigh(camera, grazing, 0.5F, options).at(kWeighCenter, kWeighCenter), 64, 1);
   options.weigh_confidence = false;
-  EXPECT_NEAR(weigh(camera, grazing, 0.5F, options).at(kCenter, kCenter), 128, 1);
+  EXPECT_NEAR(weigh(camera, grazing, 0.5F, options).at(kWeighCenter, kWeighCenter), 128, 1);
   options.weigh_slant = false;
-  EXPECT_EQ(weigh(camera, grazing, 0.5F, options).at(kCenter, kCenter), 255U);
-  EXPECT_LT(weigh(camera, grazing, 0.5F, options).at(0, kCenter), 20U);
+  EXPECT_EQ(weigh(camera, grazing, 0.5F, options).at(kWeighCenter, kWeighCenter), 255U);
+  EXPECT_LT(weigh(camera, grazing, 0.5F, options).at(0, kWeighCenter), 20U);
   options.weigh_border = false;
-  EXPECT_EQ(weigh(camera, grazing, 0.5F, options).at(0, kCenter), 255U);
+  EXPECT_EQ(weigh(camera, grazing, 0.5F, options).at(0, kWeighCenter), 255U);
 }
 
 TEST(WeighSurface, IsZeroOffTheSurfaceAndAtLeastOneOnIt) {
