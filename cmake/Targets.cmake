@@ -27,12 +27,14 @@ set(warnings -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   "$<$<CXX_COMPILER_ID:Clang>:-Wno-shadow;-Wno-deprecated-declarations;-Wno-overlength-strings>")
 
 # Of undefined behavior, what is checked at every use of a pointer took half of the compiler's time where that was measured.
-# What fuzzers look into is built to find it, too; elsewhere a bad pointer is the address sanitizer's to find.
+# The folder that reads what others wrote is built to find it for the fuzzers; elsewhere a bad pointer is the address
+# sanitizer's to find.
+set(searched quorum_io)
 set(unsearched -fno-sanitize=null,alignment,vptr,object-size,nonnull-attribute,returns-nonnull-attribute)
 
 # Folders that read no files: their branches lead no fuzzer anywhere, and counting them takes time.
-set(unguided quorum_bench quorum_conformance quorum_depth quorum_evaluate quorum_host quorum_image quorum_render
-  quorum_report quorum_synthetic quorum_texture quorum_volume)
+set(unguided quorum quorum_api quorum_bench quorum_conformance quorum_depth quorum_evaluate quorum_experiment quorum_host quorum_image quorum_render
+  quorum_report quorum_run quorum_synthetic quorum_texture quorum_volume)
 
 # Options of a target: warnings, and float arithmetic that is never contracted or reordered, since results are compared
 # byte by byte (docs/architecture.md, "One result everywhere"). All code can go into the shared library, too (Api.cmake),
@@ -48,9 +50,7 @@ function(quorum_options target)
   target_compile_options(${target} PRIVATE
     ${warnings} -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<BOOL:${QUORUM_WERROR}>:-Werror>
     -fPIC -fvisibility=hidden -fvisibility-inlines-hidden)
-  set(is_searched FALSE)
   if(QUORUM_FUZZ AND NOT option_TEST AND NOT target IN_LIST unguided)
-    set(is_searched TRUE)
     target_compile_options(${target} PRIVATE -fsanitize-coverage=inline-8bit-counters,pc-table,trace-cmp)
   endif()
   if(QUORUM_SANITIZE)
@@ -59,7 +59,7 @@ function(quorum_options target)
       $<$<NOT:$<BOOL:${option_TEST}>>:-fsanitize=undefined -fno-sanitize-recover=undefined>
       # GCC 12 finds this in the standard library where the sanitizers have added code.
       $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-    if(NOT is_searched AND NOT option_TEST)
+    if(NOT option_TEST AND NOT (QUORUM_FUZZ AND target IN_LIST searched))
       target_compile_options(${target} PRIVATE ${unsearched})
     endif()
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
