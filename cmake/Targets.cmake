@@ -33,8 +33,8 @@ set(searched quorum_io)
 set(unsearched -fno-sanitize=null,alignment,vptr,object-size,nonnull-attribute,returns-nonnull-attribute)
 
 # Folders that read no files: their branches lead no fuzzer anywhere, and counting them takes time.
-set(unguided quorum quorum_api quorum_bench quorum_conformance quorum_depth quorum_evaluate quorum_experiment quorum_host quorum_image quorum_render
-  quorum_report quorum_run quorum_synthetic quorum_texture quorum_volume)
+set(unguided quorum quorum_api quorum_bench quorum_conformance quorum_depth quorum_evaluate quorum_experiment quorum_host
+  quorum_image quorum_render quorum_report quorum_run quorum_synthetic quorum_texture quorum_volume)
 
 # Options of a target: warnings, and float arithmetic that is never contracted or reordered, since results are compared
 # byte by byte (docs/architecture.md, "One result everywhere"). All code can go into the shared library, too (Api.cmake),
