@@ -45,7 +45,7 @@ function(quorum_options target)
   target_compile_features(${target} PUBLIC cxx_std_23)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PUBLIC Eigen3::Eigen fmt::fmt)  # what headers of the engine show
-  # Eigen's vector code fuses multiplications with additions where a processor can (NEON, -march=native).
+  # Eigen's vector code fuses multiplications with additions where it can (NEON, FMA), and adds in an order of its own.
   target_compile_definitions(${target} PUBLIC EIGEN_DONT_VECTORIZE)
   target_compile_options(${target} PRIVATE
     ${warnings} -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<BOOL:${QUORUM_WERROR}>:-Werror>

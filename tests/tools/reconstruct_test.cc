@@ -12,8 +12,6 @@
 namespace quorum {
 namespace {
 
-using Files = std::map<std::string, std::string>;
-
 class Reconstruct : public ToolTest {
  protected:
   void SetUp() override { synthesize(8, 160); }
@@ -43,17 +41,6 @@ class Reconstruct : public ToolTest {
     return nlohmann::json::parse(file_bytes(below(output) / "run.json"), nullptr, false);
   }
 };
-
-void expect_same_files(const Files& expected, const Files& found) {
-  EXPECT_EQ(expected.size(), found.size());
-  for (const auto& [name, bytes] : expected) {
-    ASSERT_TRUE(found.contains(name)) << name;
-    const std::string& other = found.at(name);
-    const auto difference = std::ranges::mismatch(bytes, other).in1 - bytes.begin();
-    EXPECT_TRUE(bytes == other) << name << ": " << bytes.size() << " and " << other.size()
-                                << " bytes, the first difference at " << difference;
-  }
-}
 
 /// The device that --device takes for the Vulkan tests, or why there is none.
 struct TestDevice {

@@ -13,7 +13,6 @@ namespace quorum {
 namespace {
 
 namespace fs = std::filesystem;
-using Files = std::map<std::string, std::string>;
 
 class Resume : public ToolTest {
  protected:
@@ -45,21 +44,16 @@ class Resume : public ToolTest {
   fs::path map(const std::string& output, const std::string& file) { return below(output) / "depth" / file; }
 };
 
-void expect_files(const Files& expected, const Files& found) {
-  EXPECT_EQ(expected.size(), found.size());
-  for (const auto& [name, bytes] : expected) EXPECT_TRUE(found.contains(name) && found.at(name) == bytes) << name;
-}
-
 TEST_F(Resume, TheSameRunAgainKeepsEveryDepthMapAndEndsInTheSameBytes) {
   const Files first = run("reconstruct", "result");
   EXPECT_EQ(kept("result"), 0);
   const auto time = fs::last_write_time(map("result", "temple0003.depth.pfm"));
-  expect_files(first, run("reconstruct", "result"));
+  expect_same_files(first, run("reconstruct", "result"));
   EXPECT_EQ(kept("result"), 8);
   EXPECT_EQ(report("result")["kept_certainties"], 8);
   EXPECT_TRUE(report("result")["depth_maps"].empty());
   EXPECT_EQ(fs::last_write_time(map("result", "temple0003.depth.pfm")), time);
-  expect_files(first, run("reconstruct", "result", {"--restart"}));
+  expect_same_files(first, run("reconstruct", "result", {"--restart"}));
   EXPECT_EQ(kept("result"), 0);
 }
 
@@ -71,10 +65,10 @@ TEST_F(Resume, OptionsRedoTheStagesThatTheyChange) {
   const Files slope = run("reconstruct", "result", {"--max-slope", "60"});
   EXPECT_EQ(kept("result"), 8);
   EXPECT_EQ(report("result")["kept_certainties"], 0);
-  expect_files(slope, run("reconstruct", "other", {"--max-slope", "60"}));
+  expect_same_files(slope, run("reconstruct", "other", {"--max-slope", "60"}));
   const Files window = run("reconstruct", "result", {"--window", "7"});
   EXPECT_EQ(kept("result"), 0);
-  expect_files(window, run("reconstruct", "other", {"--window", "7", "--restart"}));
+  expect_same_files(window, run("reconstruct", "other", {"--window", "7", "--restart"}));
   // What changes no result changes no work either.
   run("reconstruct", "result", {"--window", "7", "--threads", "1", "--tile", "16", "4"});
   EXPECT_EQ(kept("result"), 8);
@@ -87,7 +81,7 @@ TEST_F(Resume, AnotherPhotographMaskOrBoxRedoesTheViewsThatUseIt) {
   EXPECT_GT(kept("result"), 0);
   EXPECT_LT(kept("result"), 8);
   EXPECT_EQ(report("result")["depth_maps"].size(), static_cast<std::size_t>(8 - kept("result")));
-  expect_files(changed, run("depth", "other", {"--neighbors", "2"}));
+  expect_same_files(changed, run("depth", "other", {"--neighbors", "2"}));
   run("depth", "result", {"--neighbors", "2", "--bounds", "0 -0.05 -0.05 0.05 0.05 0.05"});
   EXPECT_EQ(kept("result"), 0);
 }
@@ -102,7 +96,7 @@ TEST_F(Resume, AfterAKillOnlyTheRestIsDone) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     program.send(SIGKILL);
     program.wait();
-    expect_files(whole, run("reconstruct", "result"));
+    expect_same_files(whole, run("reconstruct", "result"));
     EXPECT_GE(kept("result"), view);
     EXPECT_EQ(report("result")["depth_maps"].size(), static_cast<std::size_t>(8 - kept("result")));
   }
@@ -115,7 +109,7 @@ TEST_F(Resume, LeftOversOfKilledRunsAreSwept) {
   std::ofstream(below("result") / ".quorum-lookalike.txt") << "kept";
   Files expected = whole;
   expected[".quorum-lookalike.txt"] = "kept";
-  expect_files(expected, run("reconstruct", "result"));
+  expect_same_files(expected, run("reconstruct", "result"));
 }
 
 TEST_F(Resume, FuseRefusesMapsOfMixedOptions) {
@@ -126,7 +120,7 @@ TEST_F(Resume, FuseRefusesMapsOfMixedOptions) {
       fs::copy_file(entry.path(), map("result", entry.path().filename()), fs::copy_options::overwrite_existing);
   expect_failure(quorum_program(command("fuse", "result")), 3,
                  {"temple0003", "window 7", "temple0001", "with 5", "run `quorum depth`"});
-  expect_files(run("reconstruct", "whole"), run("reconstruct", "result"));
+  expect_same_files(run("reconstruct", "whole"), run("reconstruct", "result"));
   EXPECT_EQ(kept("result"), 7);
 }
 
@@ -149,7 +143,7 @@ TEST_F(Resume, FuseTakesTheOptionsOfTheDepthMaps) {
   const std::vector<std::string> options = {"--max-angle", "70", "--window", "7", "--no-slant", "--depth-step", "4mm"};
   const Files whole = run("reconstruct", "whole", options);
   run("depth", "parts", options);
-  expect_files(whole, run("fuse", "parts"));
+  expect_same_files(whole, run("fuse", "parts"));
   EXPECT_EQ(report("whole")["options"], report("parts")["options"]);
 }
 

@@ -11,7 +11,6 @@ namespace quorum {
 namespace {
 
 namespace fs = std::filesystem;
-using Files = std::map<std::string, std::string>;
 using Words = std::vector<std::string>;
 
 class Shards : public ToolTest {

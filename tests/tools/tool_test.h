@@ -32,14 +32,28 @@ inline void expect_failure(const ProgramResult& result, int exit_code, const std
   for (const std::string& part : parts) EXPECT_TRUE(contains(result.err, part)) << part << " is not in: " << result.err;
 }
 
-/// Every regular file below a folder: its relative path and its bytes.
-inline std::map<std::string, std::string> files_below(const std::filesystem::path& folder) {
-  std::map<std::string, std::string> files;
+/// Files: their relative paths and their bytes.
+using Files = std::map<std::string, std::string>;
+
+/// Every regular file below a folder.
+inline Files files_below(const std::filesystem::path& folder) {
+  Files files;
   if (!std::filesystem::is_directory(folder)) return files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
     if (entry.is_regular_file())
       files[std::filesystem::relative(entry.path(), folder).string()] = file_bytes(entry.path());
   return files;
+}
+
+inline void expect_same_files(const Files& expected, const Files& found) {
+  EXPECT_EQ(expected.size(), found.size());
+  for (const auto& [name, bytes] : expected) {
+    ASSERT_TRUE(found.contains(name)) << name;
+    const std::string& other = found.at(name);
+    const auto difference = std::ranges::mismatch(bytes, other).in1 - bytes.begin();
+    EXPECT_TRUE(bytes == other) << name << ": " << bytes.size() << " and " << other.size()
+                                << " bytes, the first difference at " << difference;
+  }
 }
 
 /// A test with a folder of its own, in which the program itself makes a scene.
