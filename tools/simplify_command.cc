@@ -53,7 +53,7 @@ Expected<void> simplify_file(const SimplifyArguments& arguments) {
                            simple.triangles.size(), mesh.triangles.size(), simple.vertices.size(), mesh.vertices.size(),
                            error));
   if (options.triangles > 0 && simple.triangles.size() > options.triangles)
-    tell(fmt::format("more than {} triangles: borders and the parts of the mesh stay{}", arguments.triangles,
+    tell(fmt::format("more than {} triangles: the parts of the mesh stay{}", arguments.triangles,
                      arguments.error.empty() ? "" : ", and so does --error"));
   return {};
 }
@@ -62,7 +62,8 @@ Expected<void> simplify_file(const SimplifyArguments& arguments) {
 
 int simplify_command(int argc, char** argv) {
   CommandLine line(
-      "Write a mesh with fewer triangles, or as it is in another format. Borders, colors and confidences are kept.",
+      "Write a mesh with fewer triangles, or as it is in another format. Colors and confidences are kept, and borders "
+      "as far as they don't take the triangles of the surface.",
       "simplify");
   SimplifyArguments arguments;
   line.add("mesh", arguments.mesh, "PLY file").required();

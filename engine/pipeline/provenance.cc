@@ -54,31 +54,6 @@ Json parse_record(const std::string& text) {
   return record.is_object() ? record : Json::object();
 }
 
-/// An option's value as it would be typed.
-std::string text_of(const Json& value) {
-  if (!value.is_array()) return value.is_string() ? value.get<std::string>() : value.dump();
-  std::string list;
-  for (const Json& part : value) {
-    if (!list.empty()) list += ',';
-    list += text_of(part);
-  }
-  return list.empty() ? "none" : list;
-}
-
-/// Takes those options of a record that are of these stages; others stay.
-Expected<void> take_options(RunOptions& options, const Json& given, const std::vector<RunStage>& stages) {
-  const RunOptions defaults;
-  for (const RunOption& option : run_option_table()) {
-    std::string key = option.name;
-    std::ranges::replace(key, '-', '_');
-    if (std::ranges::count(stages, option.stage) == 0 || option.name == "mask-below" || !given.contains(key)) continue;
-    const std::string text = text_of(given[key]);
-    if (option.most_words == 0 && text == option.text(defaults)) continue;
-    QUORUM_TRY(option.parse(options, {text}));
-  }
-  return options.check();
-}
-
 /// The first member in which two objects differ, as "window 9"; empty if they don't. other: its value there.
 std::string difference(const Json& one, const Json& two, std::string& other) {
   for (const auto& [key, value] : one.items())
@@ -215,9 +190,10 @@ Expected<void> Provenance::check_depth_maps(const std::vector<int>& views) {
 Expected<void> take_depth_options(RunOptions& options, const Scene& scene, const Workspace& workspace) {
   for (const View& view : scene.views) {
     const Json record = parse_record(workspace.depth_record(view.name));
-    const Json given = record.value("options", Json());
+    Json given = record.value("options", Json());
     if (!given.is_object()) continue;
-    return take_options(options, given, {RunStage::kDepth});
+    given.erase("mask_below");  // which a later stage may set anew
+    return take_options(options, given.dump(), RunStage::kDepth, RunStage::kDepth);
   }
   return {};
 }
@@ -226,7 +202,8 @@ Expected<void> take_surface_options(RunOptions& options, const std::string& reco
   const Json all = parse_record(record);
   if (const Json level = all.value("mask_below", Json()); level.is_number()) options.mask_below = level;
   const Json given = all.value("options", Json());
-  return given.is_object() ? take_options(options, given, {RunStage::kConfirm, RunStage::kFusion}) : Expected<void>();
+  return given.is_object() ? take_options(options, given.dump(), RunStage::kConfirm, RunStage::kFusion)
+                           : Expected<void>();
 }
 
 }  // namespace quorum

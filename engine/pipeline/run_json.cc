@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "engine/core/printable.h"
 #include "engine/core/version.h"
@@ -25,14 +26,35 @@ Json value_of(const RunOption& option, const std::string& text) {
   return value.is_number() || value.is_boolean() ? value : Json(text);
 }
 
+/// An option's value as it would be typed.
+std::string text_of(const Json& value) {
+  if (!value.is_array()) return value.is_string() ? value.get<std::string>() : value.dump();
+  std::string list;
+  for (const Json& part : value) list += (list.empty() ? "" : ",") + text_of(part);
+  return list.empty() ? "none" : list;
+}
+
+std::string key_of(const RunOption& option) {
+  std::string key = option.name;
+  std::ranges::replace(key, '-', '_');
+  return key;
+}
+
+/// The words of an option as it would be typed.
+std::vector<std::string> words_of(const RunOption& option, const std::string& text) {
+  if (option.most_words <= 1) return {text};
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
 Json json_of(const RunOptions& options, RunStage first, RunStage last) {
   Json json = Json::object();
   for (const RunOption& option : run_option_table()) {
     const std::string text = option.text(options);
     if (option.stage < first || option.stage > last || text.empty()) continue;
-    std::string name = option.name;
-    std::ranges::replace(name, '-', '_');
-    json[name] = value_of(option, text);
+    json[key_of(option)] = value_of(option, text);
   }
   return json;
 }
@@ -41,6 +63,19 @@ Json json_of(const RunOptions& options, RunStage first, RunStage last) {
 
 std::string options_json(const RunOptions& options, RunStage first, RunStage last) {
   return json_of(options, first, last).dump(2) + "\n";
+}
+
+Expected<void> take_options(RunOptions& options, const std::string& json, RunStage first, RunStage last) {
+  const RunOptions defaults;
+  const Json given = Json::parse(json, nullptr, false);
+  for (const RunOption& option : run_option_table()) {
+    const std::string key = key_of(option);
+    if (option.stage < first || option.stage > last || !given.is_object() || !given.contains(key)) continue;
+    const std::string text = text_of(given[key]);
+    if (option.most_words == 0 && text == option.text(defaults)) continue;
+    QUORUM_TRY(option.parse(options, words_of(option, text)));
+  }
+  return options.check();
 }
 
 std::string run_json(const Run& run) {

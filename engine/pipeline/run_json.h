@@ -11,6 +11,9 @@ namespace quorum {
 /// for -; those that were not given are left out. Lengths are in scene units.
 std::string options_json(const RunOptions& options, RunStage first, RunStage last);
 
+/// Takes the options of these stages from such a text; others stay. Fails (kUsage) if a value is none of its option.
+Expected<void> take_options(RunOptions& options, const std::string& json, RunStage first, RunStage last);
+
 /// The report as indented JSON text. Lengths are in scene units, times in seconds, memory in bytes. Stages overlap: see
 /// StageReport.
 std::string run_json(const Run& run);

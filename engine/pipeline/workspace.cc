@@ -239,12 +239,9 @@ void Workspace::remove_shards(std::string_view stage) const {
     for (const Shard& shard : find_shards(stage, kind)) remove_file(shard_path(stage, shard, kind));
 }
 
-void Workspace::remove_mesh() const { remove_file(mesh_path()); }
-
-void Workspace::remove_model() const { remove_file(model_path()); }
-
-void Workspace::remove_cloud() const { remove_file(cloud_path()); }
-
-void Workspace::remove_report() const { remove_file(report_path()); }
+void Workspace::remove_report() const {
+  remove_file(report_path());
+  remove_file(verified_path());
+}
 
 }  // namespace quorum

@@ -21,6 +21,7 @@ namespace quorum {
 ///   depth/NAME.depth.json .certainty.json                   what these were made from (provenance.h)
 ///   depth/NAME.depth.png .correlation.png .confidence.png .normal.png .certainty.png   previews
 ///   mesh.ply, run.json
+///   verified.json                                           devices on which the same run gave the same bytes
 ///   shards/STAGE-I-of-N.json                                what a shard did; STAGE: depth, confirm or fuse
 ///   shards/fuse-I-of-N.part                                 a shard's part of the surface (surface_part.h)
 ///   model.glb                                               simpler, or with the photographs on it, if asked for
@@ -43,6 +44,7 @@ class Workspace {
   [[nodiscard]] std::filesystem::path cloud_path() const { return folder_ / "fused.ply"; }
   [[nodiscard]] std::filesystem::path colmap_path() const { return folder_ / "colmap"; }
   [[nodiscard]] std::filesystem::path report_path() const { return folder_ / "run.json"; }
+  [[nodiscard]] std::filesystem::path verified_path() const { return folder_ / "verified.json"; }
 
   /// True if a depth map of this view was saved, to the end.
   [[nodiscard]] bool has_depth_map(const std::string& view) const;
@@ -82,10 +84,10 @@ class Workspace {
   [[nodiscard]] std::vector<Shard> find_shards(std::string_view stage, std::string_view kind) const;
   /// Removes what shards left of a stage.
   void remove_shards(std::string_view stage) const;
-  /// Removes what an earlier run made of the depth maps: mesh, cloud and report.
-  void remove_mesh() const;
-  void remove_model() const;
-  void remove_cloud() const;
+  /// Removes what an earlier run made of the depth maps: mesh, cloud and report, with what verified it.
+  void remove_mesh() const { remove_file(mesh_path()); }
+  void remove_model() const { remove_file(model_path()); }
+  void remove_cloud() const { remove_file(cloud_path()); }
   void remove_report() const;
 
  private:

@@ -5,32 +5,16 @@
 #include <cmath>
 #include <cstdint>
 
+#include "engine/report/data_url.h"
+
 namespace quorum {
 namespace {
-
-template <typename T>
-std::string packed(const std::vector<T>& values) {
-  return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
-}
 
 std::uint8_t to_byte(float value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
 }
 
 }  // namespace
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
 
 PackedMesh pack_mesh(const Mesh& mesh, const std::vector<int>& views, float full_confidence) {
   Eigen::AlignedBox3f box;
@@ -57,11 +41,11 @@ PackedMesh pack_mesh(const Mesh& mesh, const std::vector<int>& views, float full
   }
   std::vector<std::uint32_t> corners;
   for (const auto& triangle : mesh.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
-  result.positions = packed(positions);
-  result.colors = packed(colors);
-  result.confidence = packed(confidences);
-  result.views = packed(counts);
-  result.triangles = packed(corners);
+  result.positions = base64_of(positions);
+  result.colors = base64_of(colors);
+  result.confidence = base64_of(confidences);
+  result.views = base64_of(counts);
+  result.triangles = base64_of(corners);
   return result;
 }
 

@@ -8,9 +8,6 @@
 
 namespace quorum {
 
-/// Text in base64 (RFC 4648), padded.
-std::string base64(std::string_view bytes);
-
 /// Little-endian arrays in base64. A position is low + value / 65535 * size; colors are sRGB; a confidence of 255 is
 /// full_confidence or more.
 struct PackedMesh {

@@ -6,16 +6,17 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/io/contact_sheet.h"
 #include "engine/io/file.h"
 #include "engine/io/image_store.h"
 #include "engine/io/ply.h"
 #include "engine/io/preview.h"
 #include "engine/io/sha256.h"
-#include "engine/io/write_image.h"
 #include "engine/mesh/simplify.h"
+#include "engine/pipeline/run.h"
+#include "engine/report/data_url.h"
 #include "engine/report/holes.h"
 #include "engine/report/packed_mesh.h"
+#include "engine/report/page_texture.h"
 
 namespace quorum {
 namespace {
@@ -23,17 +24,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kPageTriangles = 160'000;
-constexpr int kQuality = 80;  // of JPEG
 
 Json numbers(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
 /// Width of a photograph on the page, pixels: the pictures of all views together stay below some 8 MB.
 int picture_width(std::size_t views) { return views <= 48 ? 640 : views <= 120 ? 400 : 240; }
-
-Expected<std::string> data_url(const ColorImage& image, int width) {
-  QUORUM_ASSIGN(const auto bytes, encode_jpeg(image.width > width ? scale_to_width(image, width) : image, kQuality));
-  return "data:image/jpeg;base64," + base64(bytes);
-}
 
 /// Value that a share of the vertices do not exceed; 1 if it would be 0.
 float percentile(const Mesh& mesh, double share) {
@@ -146,6 +141,13 @@ Expected<Json> read_run(const Workspace& workspace) {
   return run;
 }
 
+/// What `quorum verify` has left of this run; empty if nothing.
+Json read_verified(const Workspace& workspace) {
+  const auto text = read_file(workspace.verified_path());
+  const Json verified = text ? Json::parse(*text, nullptr, false) : Json();
+  return verified.is_object() ? verified : Json::object();
+}
+
 /// The box of the run, which its options may have given, in the frame of the scene; that of the scene if run.json has
 /// none.
 Bounds bounds_of(const Json& run, const Scene& scene) {
@@ -183,12 +185,16 @@ void add_neighbors(const Json& run, Json& views) {
 
 }  // namespace
 
-Expected<std::string> page_data(const Scene& scene, const Workspace& workspace) {
+Expected<std::string> page_data(const Scene& scene, const Workspace& workspace, const MemoryBudget& budget,
+                                Progress& progress) {
   QUORUM_ASSIGN(const Json run, read_run(workspace));
   QUORUM_ASSIGN(const Mesh whole, read_ply(workspace.mesh_path(), scene.offset));
   QUORUM_ASSIGN(const auto mesh_bytes, read_file(workspace.mesh_path()));
   const bool is_large = whole.triangles.size() > kPageTriangles;
-  const Mesh mesh = is_large ? simplify(whole, {.triangles = kPageTriangles}) : whole;
+  QUORUM_ASSIGN(
+      const TexturedMesh shown,
+      texture_for_page(is_large ? simplify(whole, {.triangles = kPageTriangles}) : whole, scene, budget, progress));
+  const Mesh& mesh = shown.mesh;
   const double tolerance = run.value("volume", Json::object()).value("truncation", scene.bounds.size().norm() / 200);
 
   std::vector<Hole> holes = find_holes(whole, bounds_of(run, scene));
@@ -196,6 +202,7 @@ Expected<std::string> page_data(const Scene& scene, const Workspace& workspace) 
   Json views = Json::array();
   ImageStore images(scene, 0);
   const int width = picture_width(scene.views.size());
+  progress.stage("writing the report", static_cast<int>(scene.views.size()));
   for (int i = 0; i < static_cast<int>(scene.views.size()); ++i) {
     const View& view = scene.views[i];
     if (!workspace.has_depth_map(view.name)) continue;  // views that take no part have none
@@ -203,6 +210,8 @@ Expected<std::string> page_data(const Scene& scene, const Workspace& workspace) 
     count_views(mesh, view, depth, tolerance, counts);
     QUORUM_ASSIGN(Json entry, view_json(workspace, view, images, i, width, depth));
     views.push_back(std::move(entry));
+    progress.step();
+    if (progress.stop_requested()) return std::unexpected(stopped());
   }
   add_neighbors(run, views);
   QUORUM_TRY(find_views(
@@ -228,10 +237,12 @@ Expected<std::string> page_data(const Scene& scene, const Workspace& workspace) 
                   {"all_vertices", whole.vertices.size()},
                   {"shown_triangles", mesh.triangles.size()},
                   {"sha256", sha256(mesh_bytes)}};
+  QUORUM_ASSIGN(data["mesh"]["texture"], texture_json(shown));
   data["views"] = views;
   data["holes"] = holes_json(scene, whole, holes);
   data["histogram"] = histogram(whole, full);
   data["run"] = run;
+  data["verified"] = read_verified(workspace);
   return for_script(data.dump(-1, ' ', true));
 }
 

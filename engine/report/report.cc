@@ -21,17 +21,18 @@ void put(std::string& page, std::string_view place, const std::string& text) {
 
 }  // namespace
 
-Expected<void> write_report(const Scene& scene, const Workspace& workspace) {
-  QUORUM_ASSIGN(const auto data, page_data(scene, workspace));
+Expected<void> write_report(const Scene& scene, const Workspace& workspace, const MemoryBudget& budget,
+                            Progress& progress) {
+  const std::filesystem::path path = workspace.folder() / "report.html";
+  if (const auto old = read_file(path); old && !old->contains(kDataElement))
+    return path_failure(path, "is there already and was not written by quorum; rename it");
+  QUORUM_ASSIGN(const auto data, page_data(scene, workspace, budget, progress));
   std::string page(kPageHtml);
   put(page, "<!--style-->", fmt::format("<style>\n{}</style>", kPageStyle));
   put(page, "<!--script-->",
       fmt::format("<script>{}</script>\n<script>{}</script>\n<script>\n{}</script>", kPageThree, kPageControls,
                   kPageScript));
   put(page, "<!--data-->", fmt::format("{}{}</script>", kDataElement, data));
-  const std::filesystem::path path = workspace.folder() / "report.html";
-  if (const auto old = read_file(path); old && !old->contains(kDataElement))
-    return path_failure(path, "is there already and was not written by quorum; rename it");
   return write_file(path, page);
 }
 

@@ -121,7 +121,7 @@ Expected<void> make_results(Run& run, const RunRequest& request, const RunSteps&
                                "{}{} and {}",
                                run.workspace.mesh_path().string(), has_masks(run) ? "the masks, " : "",
                                option_name("bounds"), option_name("min-confidence")));
-  return request.report ? write_report(run.scene, run.workspace) : Expected<void>();
+  return request.report ? write_report(run.scene, run.workspace, run.budget, run.progress) : Expected<void>();
 }
 
 }  // namespace quorum

@@ -36,12 +36,47 @@ const mostViews = Math.min(10, data.views.length) || 1;
 const full = data.histogram.full;
 const short = (value) => Number(value.toPrecision(3)).toString();
 
+const texture = mesh.texture;
+
 const modes = [
+  ...(texture ? [{name: 'Texture', isTextured: true, color: (i) => [colors[3 * i], colors[3 * i + 1], colors[3 * i + 2]]}] : []),
   {name: 'Color', lit: false, color: (i) => [colors[3 * i], colors[3 * i + 1], colors[3 * i + 2]]},
   {name: 'Shape', lit: true, color: () => [200, 200, 196]},
   {name: 'Confidence', lit: true, color: (i) => ramp(confidence[i] / 255), legend: ['0: a guess', `${short(full)} or more`]},
   {name: 'Views', lit: true, color: (i) => ramp(viewCounts[i] / mostViews), legend: ['no view', `${mostViews} views`]},
 ];
+
+/** Normals of vertices. Where a texture's pieces meet, a vertex is there once for each: they share one normal. */
+function smoothNormals(packed, positions, triangles) {
+  const first = new Map();  // vertex of a place
+  const same = new Uint32Array(positions.length / 3);
+  for (let i = 0; i < same.length; ++i) {
+    const place = (packed[3 * i] * 65536 + packed[3 * i + 1]) * 65536 + packed[3 * i + 2];
+    if (!first.has(place)) first.set(place, i);
+    same[i] = first.get(place);
+  }
+  const at = (i) => new THREE.Vector3().fromArray(positions, 3 * i);
+  const normals = new Float32Array(positions.length);
+  for (let t = 0; t < triangles.length; t += 3) {
+    const corners = [triangles[t], triangles[t + 1], triangles[t + 2]];
+    const [a, b, c] = corners.map(at);
+    const normal = b.sub(a).cross(c.sub(a)).toArray();  // as long as twice its area
+    for (const corner of corners) normal.forEach((value, axis) => { normals[3 * same[corner] + axis] += value; });
+  }
+  for (let i = 0; i < same.length; ++i) normals.copyWithin(3 * i, 3 * same[i], 3 * same[i] + 3);
+  for (let i = 0; i < same.length; ++i) new THREE.Vector3().fromArray(normals, 3 * i).normalize().toArray(normals, 3 * i);
+  return normals;
+}
+
+/** The inside of a surface is drawn dark, so that an opening looks like one. */
+function darkInside(material) {
+  material.side = THREE.DoubleSide;
+  material.onBeforeCompile = (shader) => {
+    const last = '#include <premultiplied_alpha_fragment>';
+    shader.fragmentShader = shader.fragmentShader.replace(last, `if (!gl_FrontFacing) gl_FragColor.rgb *= 0.3;\n${last}`);
+  };
+  return material;
+}
 
 class Viewer {
   constructor(canvas) {
@@ -74,12 +109,33 @@ class Viewer {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
     geometry.setAttribute('color', new THREE.BufferAttribute(new Uint8Array(positions.length), 3, true));
-    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytesOf(mesh.triangles).buffer), 1));
-    geometry.computeVertexNormals();
-    const options = {vertexColors: THREE.VertexColors, side: THREE.DoubleSide};
-    this.materials = {true: new THREE.MeshLambertMaterial(options), false: new THREE.MeshBasicMaterial(options)};
-    this.mesh = new THREE.Mesh(geometry, this.materials[false]);
+    const triangles = new Uint32Array(bytesOf(mesh.triangles).buffer);
+    geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
+    geometry.setAttribute('normal', new THREE.BufferAttribute(smoothNormals(packed, positions, triangles), 3));
+    const options = {vertexColors: THREE.VertexColors};
+    this.materials = {lit: darkInside(new THREE.MeshLambertMaterial(options)), flat: darkInside(new THREE.MeshBasicMaterial(options))};
+    if (texture) this.addTexture(geometry);
+    this.mesh = new THREE.Mesh(geometry, this.materials.flat);
     this.scene.add(this.mesh);
+  }
+
+  /** A material for each page of the texture; triangles that no photograph shows keep the colors of their vertices. */
+  addTexture(geometry) {
+    const places = new Uint16Array(bytesOf(texture.coordinates).buffer);
+    geometry.setAttribute('uv', new THREE.BufferAttribute(places, 2, true));
+    const first = texture.first_triangles;
+    const groups = first.slice(1).map((end, i) => ({start: 3 * first[i], count: 3 * (end - first[i]), materialIndex: i}));
+    const pages = texture.pages.map((address) => {
+      const page = new THREE.Texture(new Image());
+      page.flipY = false;
+      page.generateMipmaps = false;
+      page.minFilter = THREE.LinearFilter;
+      page.image.addEventListener('load', () => { page.needsUpdate = true; this.draw(); });
+      page.image.src = address;
+      return darkInside(new THREE.MeshBasicMaterial({map: page}));
+    });
+    this.materials.textured = [...pages, this.materials.flat];
+    this.groups = groups;
   }
 
   local(point) { return new THREE.Vector3(...point.map((value, i) => value - this.middle[i])); }
@@ -144,6 +200,7 @@ class Viewer {
     for (let i = 0; i < hole.line.length; i += 3) points.push(this.local(hole.line.slice(i, i + 3)));
     const material = new THREE.LineBasicMaterial({color: 0xff3355, depthTest: false});
     this.rim = new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(points), material);
+    this.rim.renderOrder = 1;  // over the mesh, also where that lies before it
     this.scene.add(this.rim);
     this.draw();
   }
@@ -152,7 +209,8 @@ class Viewer {
     const attribute = this.mesh.geometry.getAttribute('color');
     for (let i = 0; i < attribute.count; ++i) attribute.array.set(mode.color(i), 3 * i);
     attribute.needsUpdate = true;
-    this.mesh.material = this.materials[mode.lit];
+    this.mesh.geometry.groups = mode.isTextured ? this.groups : [];
+    this.mesh.material = this.materials[mode.isTextured ? 'textured' : mode.lit ? 'lit' : 'flat'];
     this.draw();
   }
 
@@ -280,15 +338,20 @@ function showRun() {
   const add = (name, value) => { if (value !== undefined && value !== null) table.append(row(name, String(value))); };
   add('Quorum', run.version);
   add('Device', run.device);
+  const verified = data.verified.version === run.version ? data.verified.devices : [];
+  add('Verified on', verified.length > 0 ? verified.join(', ') : 'no device yet: quorum verify OUT --scene SCENE');
   add('Wall seconds', run.wall_seconds && run.wall_seconds.toFixed(1));
   add('CPU seconds', run.cpu_seconds && run.cpu_seconds.toFixed(1));
   add('Peak memory', run.peak_memory_bytes && `${Math.round(run.peak_memory_bytes / 1048576)} MiB`);
   for (const [name, value] of Object.entries(run.options || {})) add(name.replace(/_/g, ' '), Array.isArray(value) ? value.join(', ') : value);
+  for (const stage of run.stages || []) {
+    add(stage.name.replace(/_/g, ' '), `${stage.wall_seconds.toFixed(1)} s, ${stage.cpu_seconds.toFixed(1)} CPU s`);
+  }
   element('run').append(table);
   const files = make('table');
   files.append(make('tr', '', make('td', 'mesh.ply'), make('td', '', make('code', mesh.sha256))));
   for (const view of data.views) files.append(make('tr', '', make('td', view.name), make('td', '', make('code', view.sha256))));
-  element('files').append(make('p', 'SHA-256. The same photographs and options give the same mesh on every device.'), files);
+  element('files').append(make('p', 'SHA-256. The same photographs and options give the same mesh on every device; quorum verify makes the run again and compares.'), files);
 }
 
 function listen(viewer) {

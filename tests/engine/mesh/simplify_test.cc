@@ -62,6 +62,28 @@ TEST(Simplify, StopsAtTheWantedNumberOrError) {
   EXPECT_LT(fine, mesh.triangles.size());
 }
 
+/// A wavy plate in which every third cell of every third row is missing.
+Mesh sieve(int side) {
+  Mesh mesh = plate_with_hole(side);
+  for (Vertex& vertex : mesh.vertices) vertex.position.z() = 0.1F * std::sin(6 * vertex.position.x());
+  std::erase_if(mesh.triangles, [side](const auto& triangle) {
+    const auto cell = static_cast<int>(triangle[0]);
+    return cell % (side + 1) % 3 == 1 && cell / (side + 1) % 3 == 1;
+  });
+  return mesh;
+}
+
+TEST(Simplify, BordersGiveWayWhereTheyWouldTakeTheTrianglesOfTheSurface) {
+  const Mesh mesh = sieve(60);
+  const std::size_t wanted = mesh.triangles.size() / 6;  // borders alone take more than twice as many
+  double error = 1;
+  const Mesh simple = simplify(mesh, {.triangles = wanted}, &error);
+  EXPECT_LE(simple.triangles.size(), wanted);
+  EXPECT_LT(error, 0.02);
+  EXPECT_GT(area_of(simple), 0.8);
+  EXPECT_LT(area_of(simple), 0.97);  // the hole in the middle is there
+}
+
 TEST(Simplify, ACloudStays) {
   Mesh cloud;
   cloud.vertices.resize(3);

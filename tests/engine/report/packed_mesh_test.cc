@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/report/data_url.h"
+
 namespace quorum {
 namespace {
 
