@@ -24,7 +24,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kPageTriangles = 160'000;
-
 Json numbers(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
 /// Width of a photograph on the page, pixels: the pictures of all views together stay below some 8 MB.
@@ -111,6 +110,16 @@ Json camera_json(const View& view) {
           {"middle", {view.camera.intrinsics(0, 2), view.camera.intrinsics(1, 2)}}};
 }
 
+/// The views that a depth map was made with, from its record; none if it has none.
+Json neighbor_names(const Workspace& workspace, const std::string& view) {
+  const Json record = Json::parse(workspace.depth_record(view), nullptr, false);
+  if (!record.is_object()) return Json::array();
+  Json names = Json::array();
+  for (const Json& neighbor : record.value("neighbors", Json::array()))
+    if (neighbor.is_object()) names.push_back(neighbor.value("name", ""));
+  return names;
+}
+
 /// One view: its pictures, and what its depth map says of the vertices. counts: as count_views.
 Expected<Json> view_json(const Workspace& workspace, const View& view, ImageStore& images, int index, int width,
                          const Grid<float>& depth) {
@@ -125,6 +134,7 @@ Expected<Json> view_json(const Workspace& workspace, const View& view, ImageStor
   QUORUM_ASSIGN(const auto bytes, read_file(view.image_path));
   return Json{{"name", view.name},
               {"camera", camera_json(view)},
+              {"neighbors", neighbor_names(workspace, view.name)},
               {"valid", static_cast<double>(measured) / std::max<double>(1, static_cast<double>(depth.values.size()))},
               {"photograph", picture},
               {is_confirmed ? "certainty" : "depth", preview},
@@ -175,14 +185,6 @@ std::string for_script(std::string_view json) {
   return text;
 }
 
-/// The neighbors of each view, from run.json, beside what was read of it.
-void add_neighbors(const Json& run, Json& views) {
-  for (const Json& map : run.value("depth_maps", Json::array()))
-    for (Json& view : views)
-      if (map.is_object() && map.value("name", "") == view["name"].get<std::string>())
-        view["neighbors"] = map.value("neighbors", Json::array());
-}
-
 }  // namespace
 
 Expected<std::string> page_data(const Scene& scene, const Workspace& workspace, const MemoryBudget& budget,
@@ -213,7 +215,6 @@ Expected<std::string> page_data(const Scene& scene, const Workspace& workspace, 
     progress.step();
     if (progress.stop_requested()) return std::unexpected(stopped());
   }
-  add_neighbors(run, views);
   QUORUM_TRY(find_views(
       scene,
       [&](int i) -> Expected<Grid<float>> {

@@ -10,6 +10,7 @@
 #include "engine/core/option_maker.h"
 #include "engine/mesh/make_manifold.h"
 #include "engine/texture/assemble.h"
+#include "engine/texture/compare_colors.h"
 #include "engine/texture/nearness_buffer.h"
 #include "engine/texture/paint_pages.h"
 #include "engine/texture/rate_triangles.h"
@@ -137,12 +138,25 @@ std::uint64_t working_bytes(const Mesh& mesh, const Scene& scene) {
   return mesh.triangles.size() * kPerTriangle + mesh.vertices.size() * kPerVertex + largest * kPerPixel;
 }
 
+/// Fails (kInput) if the mesh is of something else.
+Expected<void> check_colors(const Mesh& mesh, const Candidates& candidates) {
+  constexpr int kMost = 28;  // levels
+  const int difference = color_difference(mesh, candidates);
+  if (difference <= kMost) return {};
+  return failure(
+      ErrorKind::kInput,
+      fmt::format("the photographs show other colors than the mesh has, by {} levels at half of its triangles: "
+                  "is it one of this scene, in its coordinates? Without its colors it is taken as it is",
+                  difference));
+}
+
 Expected<Textured> texture(const Texturing& work) {
   QUORUM_TRY(work.watch.require(working_bytes(work.mesh, work.scene), "texturing the mesh"));
   const MeshLinks links = link_mesh(work.mesh);
   Candidates candidates(work.mesh.triangles.size());
   const std::vector<SurfacePiece> pieces = surface_pieces(work.mesh, links, smoothing_steps(work.mesh, work.scene));
   QUORUM_TRY(rate_all(work, pieces, candidates));
+  QUORUM_TRY(check_colors(work.mesh, candidates));
   mark_disagreement(candidates);
   const std::vector<std::int32_t> views = choose_views(links, candidates, facing_pixels(work, pieces));
   if (std::ranges::all_of(views, [](std::int32_t view) { return view == kUnseen; }))

@@ -74,6 +74,25 @@ TEST(TextureMesh, AnyNumberOfThreadsGivesTheSame) {
   EXPECT_EQ(again->mesh.coordinates, textured_sphere().mesh.coordinates);
 }
 
+TEST(TextureMesh, AMeshInOtherColorsThanThePhotographsIsRefused) {
+  const TexturedMesh& textured = textured_sphere().mesh;
+  Mesh mesh = textured.mesh;  // split at seams, which is no matter here
+  const ColorImage& page = textured.pages.front();
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Eigen::Vector2f place = textured.coordinates[v];
+    mesh.vertices[v].color = page.at(static_cast<int>(place.x() * static_cast<float>(page.width)),
+                                     static_cast<int>(place.y() * static_cast<float>(page.height)));
+  }
+  EXPECT_TRUE(texture(mesh, input().sphere.scene));
+  for (Vertex& vertex : mesh.vertices)
+    vertex.color =
+        make_rgb((red_of(vertex.color) + 128) % 256, (green_of(vertex.color) + 128) % 256, blue_of(vertex.color));
+  const auto refused = texture(mesh, input().sphere.scene);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::kInput);
+  EXPECT_NE(refused.error().message.find("other colors"), std::string::npos) << refused.error().message;
+}
+
 TEST(TextureMesh, WhatNoPhotographShowsKeepsTheColorOfItsVertices) {
   Scene front = input().sphere.scene;
   front.views.resize(1);
