@@ -38,13 +38,16 @@ VolumeStage::Surface VolumeStage::record_surface(const FusionView& view) {
   const int width = view.map.depth.width;
   const int height = view.map.depth.height;
   const std::size_t word_bytes = view.map.depth.values.size() * sizeof(std::uint32_t);
-  Surface surface{.depth = commands_->upload(view.map.depth.values),
-                  .confidence = commands_->upload(view.map.confidence.values),
-                  .cells = commands_->allocate(word_bytes),
-                  .weights = commands_->allocate(word_bytes)};
+  Surface surface{
+      .depth = commands_->upload(view.map.depth.values),
+      .confidence = commands_->upload(view.map.confidence.values),
+      .normals = commands_->upload(view.normals != nullptr ? view.normals->values : std::vector<std::uint32_t>(1)),
+      .cells = commands_->allocate(word_bytes),
+      .weights = commands_->allocate(word_bytes)};
+  RangeSurfaceParams range = make_range_surface_params(view.camera, width, height, fusion_);
+  if (view.normals == nullptr) range.agreement = 0;
   commands_->region("range_surface");
-  commands_->dispatch(range_surface_, {width, height}, make_range_surface_params(view.camera, width, height, fusion_),
-                      {surface.depth, surface.cells});
+  commands_->dispatch(range_surface_, {width, height}, range, {surface.depth, surface.normals, surface.cells});
   commands_->region("weigh_surface");
   commands_->dispatch(weigh_surface_, {width, height}, make_weigh_surface_params(view.camera, width, height, fusion_),
                       {surface.depth, surface.confidence, surface.cells, surface.weights});

@@ -30,6 +30,7 @@ class VolumeStage {
   struct Surface {
     Buffer depth;
     Buffer confidence;
+    Buffer normals;
     Buffer cells;
     Buffer weights;
   };

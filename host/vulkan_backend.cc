@@ -50,7 +50,7 @@ std::uint64_t VulkanBackend::view_bytes(std::uint64_t pixels, int neighbors) con
   // windows, ranges, planes twice, and those that are tried.
   const std::uint64_t photograph = device().info().kind == DeviceKind::kSoftware ? 16 : 4;
   return host + kNccValues +
-         (photograph * (1 + static_cast<std::uint64_t>(neighbors)) + (neighbors > 0 ? 100 : 20)) * pixels;
+         (photograph * (1 + static_cast<std::uint64_t>(neighbors)) + (neighbors > 0 ? 100 : 24)) * pixels;
 }
 
 std::vector<StageTime> VulkanBackend::kernel_times() const {

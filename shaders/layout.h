@@ -278,13 +278,25 @@ struct ConfirmDepthsParams {
 };
 QUORUM_SIZE(ConfirmDepthsParams, 76);
 
+// A normal in a word: x, y and z in kNormalBits each, from the lowest on, as kNormalScale * value + kNormalZero. The
+// word 0 is no normal.
+const int kNormalBits = 10;
+const int kNormalScale = 511;
+const int kNormalZero = 512;
+
 // range_surface: the triangles of one depth map.
 struct RangeSurfaceParams {
   int width;
   int height;
-  float max_step;  // largest depth difference between pixels one apart, as a share of the nearer depth
+  float max_step;    // largest depth difference between pixels one apart, as a share of the nearer depth
+  float plane_step;  // the same, from which on planes are asked
+  float agreement;  // distance from the other's plane, between pixels one apart, as a share of the nearer depth; 0: any
+  float inverse_focal_x;  // pixels
+  float inverse_focal_y;
+  float principal_x;
+  float principal_y;
 };
-QUORUM_SIZE(RangeSurfaceParams, 12);
+QUORUM_SIZE(RangeSurfaceParams, 36);
 
 // weigh_surface: the weights of its vertices, and in the upper bits the cosines of the distances along their normals.
 struct WeighSurfaceParams {

@@ -111,7 +111,7 @@ std::vector<Cost> bench_costs(const Scene& scene, const RunOptions& options, con
         "4 operations and 4 bytes a window", device);
   }
   add("range_surface", "pixel · view", 2 * sum.pixels, kernel("range_surface"), kCellOperations * 2 * sum.valid_pixels,
-      8 * 2 * sum.pixels, "25 operations a valid pixel, 8 bytes a pixel; twice a view", device);
+      12 * 2 * sum.pixels, "25 operations a valid pixel, 12 bytes a pixel; twice a view", device);
   add("weigh_surface", "pixel · view", 2 * sum.pixels, kernel("weigh_surface"),
       kWeightOperations * 2 * sum.valid_pixels, 16 * 2 * sum.pixels,
       "50 operations a valid pixel, 16 bytes a pixel; twice a view", device);

@@ -38,6 +38,8 @@ RunOptions default_options(const std::string& scene) {
   options.sweep.window_model = WindowModel::kPlane;
   options.fusion.signed_distance = SignedDistance::kRay;
   options.fusion.feather = 4;
+  options.fusion.max_slope_deg = 70;
+  options.fusion.plane_agreement = 0;
   options.confirm = false;
   return options;
 }

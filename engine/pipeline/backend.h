@@ -21,6 +21,7 @@ struct FusionView {
   const DepthMap& map;
   const PaddedImage& image;
   const Camera& camera;
+  const Grid<std::uint32_t>* normals = nullptr;  ///< of its pixels, as pack_normals gives them; null: none are known
 };
 
 /// Time that a device spent on one kernel or stage: of a GPU by its timestamps, of the CPU the sum over its threads.

@@ -36,7 +36,8 @@ CpuBackend::Surface CpuBackend::make_surface(const FusionView& view) {
   const int height = view.map.depth.height;
   Surface surface;
   surface.cells = timed("range_surface", [&] {
-    return range_surface(view.map.depth, make_range_surface_params(view.camera, width, height, fusion_));
+    return range_surface(view.map.depth, make_range_surface_params(view.camera, width, height, fusion_),
+                         view.normals != nullptr ? *view.normals : Grid<std::uint32_t>());
   });
   surface.weights = timed("weigh_surface", [&] {
     return weigh_surface(view.map.depth, view.map.confidence, surface.cells,

@@ -10,6 +10,7 @@
 #include "engine/mesh/fill_holes.h"
 #include "engine/mesh/filled_patches.h"
 #include "engine/pipeline/view_loop.h"
+#include "engine/volume/range_surface.h"
 #include "engine/volume/slabs.h"
 
 namespace quorum {
@@ -55,6 +56,7 @@ bool has_background(const Grid<float>& depth) {
 struct LoadedView {
   DepthMap map;
   PaddedImage image;
+  Grid<std::uint32_t> normals;  ///< packed; empty if edges are not held against planes
 };
 
 /// The image is empty if none is wanted; then, if holes are filled, depths tell the background.
@@ -65,6 +67,10 @@ Expected<LoadedView> load_view(const Fusion& fusion, int index, bool with_image)
   const bool confirmed = fusion.run.options.confirm;
   QUORUM_ASSIGN(loaded.map, workspace.load_weighed_depth(view.name, view.width, view.height, confirmed));
   if (confirmed) leave_out_dropped(loaded.map.confidence, loaded.map.depth);
+  if (fusion.run.options.fusion.plane_agreement > 0) {
+    QUORUM_ASSIGN(const auto normals, workspace.load_normals(view.name, view.width, view.height));
+    loaded.normals = pack_normals(normals);
+  }
   if (!with_image) {
     if (fusion.fills_holes()) QUORUM_TRY(mark_background(fusion, index, loaded.map.depth));
     return loaded;
@@ -79,7 +85,8 @@ template <typename Use>
 Expected<void> for_each_map(const Fusion& fusion, const std::vector<int>& views, bool with_image, const Use& use) {
   const auto read = [&](int view) { return load_view(fusion, view, with_image); };
   const auto work = [&](int view, const LoadedView& loaded) {
-    return use(view, FusionView{loaded.map, loaded.image, fusion.run.view(view).camera});
+    return use(view, FusionView{loaded.map, loaded.image, fusion.run.view(view).camera,
+                                loaded.normals.empty() ? nullptr : &loaded.normals});
   };
   return for_each_view(fusion.run, views, {.read = "load_depth_maps"}, read, work);
 }

@@ -73,6 +73,7 @@ MemoryEstimate merge_memory(const Scene& scene, const std::vector<int>& views, c
                             const Backend& backend) {
   const std::uint64_t pixels = most_pixels(scene, views);
   return {{{"Workspace::load_depth_map: three maps and a file's bytes, of two views", 2 * 16 * pixels},
+           {"Workspace::load_normals, pack_normals: normals, a file's bytes, words, of two views", 2 * 20 * pixels},
            {"ImageStore: a photograph and its padded copy, of two views", 2 * 12 * pixels},
            {"collect_blocks: bits of blocks, twice", grid.block_count() / 4},
            {"Backend::integrate", backend.view_bytes(pixels, 0)}}};

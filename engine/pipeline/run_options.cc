@@ -57,6 +57,7 @@ std::vector<RunOption> make_table() {
     Make::length("voxel-size", AT(fusion.voxel_size), "Edge of a voxel, such as 0.5mm; auto: a pixel's footprint"),
     Make::length("truncation", AT(fusion.truncation), "Distance from a surface up to which voxels are filled; auto: 3 voxels; 4 with ray"),
     Make::choice("signed-distance", AT(fusion.signed_distance), {{"normal", SignedDistance::kNormal}, {"ray", SignedDistance::kRay}}, "Along what voxels measure it: normal of the surface, or ray, the line of sight as in the paper"),
+    Make::number("plane-agreement", AT(fusion.plane_agreement), {0, 100}, "Pixels' footprints that a neighbor may lie off a pixel's plane to be joined to it where the surface is steeper than 40 degrees; 0: any"),
     Make::number("feather", AT(fusion.feather), {0, 8}, "Pixels over which weights rise from a border"),
     weights_option("weights", "What a depth's weight is made of"),
     Make::toggle("fill-holes", AT(fusion.fill_holes), "Close holes by space carving, confidence 0 there; nothing is where masks and mask-below leave out pixels"),
@@ -154,7 +155,8 @@ Expected<void> RunOptions::check() const {
 
 SavedFiles RunOptions::saved_files() const {
   const bool least = saved_maps == SavedMaps::kLeast;
-  return {saved_maps == SavedMaps::kAll, !least || !confirm, !least || cloud || colmap, previews};
+  const bool takes_normals = fusion.plane_agreement > 0 || cloud || colmap;
+  return {saved_maps == SavedMaps::kAll, !least || !confirm, !least || takes_normals, previews};
 }
 
 std::string run_options_markdown() {

@@ -13,7 +13,7 @@ constexpr int kSmallPreview = 512;
 enum class SavedMaps {
   kAll,     ///< also correlation, which no stage reads
   kNeeded,  ///< what a later stage may read, and COLMAP's workspace: depth, confidence, normals, certainty
-  kLeast,   ///< what this run's own stages read: depth; confidence or certainty; normals for clouds and for COLMAP
+  kLeast,  ///< what this run's own stages read: depth; confidence or certainty; normals unless no stage asks for planes
 };
 
 /// The maps of a view's depth map that are written beside its depth, and previews.

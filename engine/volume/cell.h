@@ -16,18 +16,17 @@ inline bool joined(float a, float b, float max_step, float pixels) {
   return nearer > 0.0F && difference <= (max_step * nearer) * pixels;
 }
 
-/// Bits kCell… of the cell with these depths at its corners.
-inline std::uint32_t cell_triangles(float d0, float d1, float d2, float d3, float max_step) {
+/// True if a cell with these depths at its corners is split from corner 0 to corner 3: the shorter diagonal.
+inline bool is_split_03(float d0, float d1, float d2, float d3) {
   const bool has_12 = d1 > 0.0F && d2 > 0.0F;
   const bool has_03 = d0 > 0.0F && d3 > 0.0F;
   const float step_12 = d1 < d2 ? d2 - d1 : d1 - d2;
   const float step_03 = d0 < d3 ? d3 - d0 : d0 - d3;
-  const bool split_03 = has_03 && (!has_12 || step_03 < step_12);
-  const bool top = joined(d0, d1, max_step, 1.0F);
-  const bool left = joined(d0, d2, max_step, 1.0F);
-  const bool right = joined(d1, d3, max_step, 1.0F);
-  const bool bottom = joined(d2, d3, max_step, 1.0F);
-  const bool diagonal = split_03 ? joined(d0, d3, max_step, kDiagonal) : joined(d1, d2, max_step, kDiagonal);
+  return has_03 && (!has_12 || step_03 < step_12);
+}
+
+/// Bits kCell… of a cell whose sides and diagonal are joined or not.
+inline std::uint32_t cell_bits(bool split_03, bool top, bool left, bool right, bool bottom, bool diagonal) {
   const bool first = diagonal && top && (split_03 ? right : left);
   const bool second = diagonal && bottom && (split_03 ? left : right);
   return (first ? kCellFirstTriangle : 0U) | (second ? kCellSecondTriangle : 0U) |

@@ -12,8 +12,11 @@ enum class SignedDistance {
 struct FusionOptions {
   double voxel_size = 0.0;    ///< edge of a voxel, scene units; 0 = automatic, the median footprint of a pixel
   double truncation = 0.0;    ///< where the signed distance is cut, scene units; 0 = automatic, 3 voxels; 4 of kRay
-  double max_slope_deg = 70;  ///< steepest triangle of a range surface against the image plane, 10..89
-  int feather = 1;            ///< pixels over which weights rise from a border of a range surface, 0..8
+  double max_slope_deg = 75;  ///< steepest triangle of a range surface against the image plane, 10..89
+  /// Where a triangle is steeper than 40 degrees, how far one end of each edge may lie off the plane of the other,
+  /// footprints of a pixel; 0 = anywhere.
+  double plane_agreement = 1;
+  int feather = 1;  ///< pixels over which weights rise from a border of a range surface, 0..8
   SignedDistance signed_distance = SignedDistance::kNormal;
   bool weigh_confidence = true;  ///< a vertex weighs by its confidence
   bool weigh_slant = true;       ///< less at grazing angles

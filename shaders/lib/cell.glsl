@@ -10,17 +10,16 @@ bool joined(float a, float b, float max_step, float pixels) {
   return nearer > 0.0 && difference <= limit;
 }
 
-uint cell_triangles(float d0, float d1, float d2, float d3, float max_step) {
+// True if a cell with these depths at its corners is split from corner 0 to corner 3: the shorter diagonal.
+bool is_split_03(float d0, float d1, float d2, float d3) {
   bool has_12 = d1 > 0.0 && d2 > 0.0;
   bool has_03 = d0 > 0.0 && d3 > 0.0;
   precise float step_12 = d1 < d2 ? d2 - d1 : d1 - d2;
   precise float step_03 = d0 < d3 ? d3 - d0 : d0 - d3;
-  bool split_03 = has_03 && (!has_12 || step_03 < step_12);
-  bool top = joined(d0, d1, max_step, 1.0);
-  bool left = joined(d0, d2, max_step, 1.0);
-  bool right = joined(d1, d3, max_step, 1.0);
-  bool bottom = joined(d2, d3, max_step, 1.0);
-  bool diagonal = split_03 ? joined(d0, d3, max_step, kDiagonal) : joined(d1, d2, max_step, kDiagonal);
+  return has_03 && (!has_12 || step_03 < step_12);
+}
+
+uint cell_bits(bool split_03, bool top, bool left, bool right, bool bottom, bool diagonal) {
   bool first = diagonal && top && (split_03 ? right : left);
   bool second = diagonal && bottom && (split_03 ? left : right);
   return (first ? kCellFirstTriangle : 0u) | (second ? kCellSecondTriangle : 0u) |

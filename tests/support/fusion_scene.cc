@@ -9,13 +9,16 @@ namespace {
 DepthMap exact_map(const View& view, bool hole) {
   DepthMap map;
   map.depth = map.correlation = map.confidence = Grid<float>(view.width, view.height);
+  map.normal = Grid<Eigen::Vector3f>(view.width, view.height, Eigen::Vector3f::Zero());
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
       const double depth = sphere_depth(view, x, y);
       const Eigen::Vector3d direction = view.camera.unproject(x, y, depth).normalized();
       if (hole && direction.dot(FusionScene::hole_center()) > FusionScene::kHoleCosine) continue;
       map.depth.at(x, y) = static_cast<float>(depth);
-      if (map.depth.at(x, y) > 0) map.correlation.at(x, y) = map.confidence.at(x, y) = 1.0F;
+      if (map.depth.at(x, y) <= 0) continue;
+      map.correlation.at(x, y) = map.confidence.at(x, y) = 1.0F;
+      map.normal.at(x, y) = (view.camera.camera_from_world * direction).cast<float>();
     }
   }
   return map;
@@ -61,6 +64,7 @@ Expected<Mesh> FusionScene::fuse(Backend& backend, RunReport& report, const Fusi
   RunOptions options;
   options.fusion = given;
   options.fusion.truncation = 0.3;
+  options.fusion.max_slope_deg = 70;  // rims of these coarse maps are too far apart beyond
   options.mask_below = mask_below;
   options.confirm = false;
   options.min_confidence = 0.0F;

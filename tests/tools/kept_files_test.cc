@@ -8,7 +8,7 @@ namespace fs = std::filesystem;
 
 class KeptFiles : public ToolTest {
  protected:
-  void SetUp() override { synthesize(6, 64); }
+  void SetUp() override { synthesize(8, 80); }
 
   ProgramResult reconstruct(const fs::path& output, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments = {"reconstruct", scene().string(), "-o", output.string(), "--device",
@@ -91,7 +91,7 @@ TEST_F(KeptFiles, ADepthMapThatWasCutIsMadeAnewAndOneThatIsGoneIsTold) {
   fs::remove(below("out/depth/temple0002.depth.json"));
   const ProgramResult fused =
       quorum_program({"fuse", scene().string(), "-o", below("out").string(), "--device", "cpu"});
-  EXPECT_TRUE(contains(fused.err, "1 of 6 views have no depth map here and take no part: temple0002")) << fused.err;
+  EXPECT_TRUE(contains(fused.err, "1 of 8 views have no depth map here and take no part: temple0002")) << fused.err;
 }
 
 TEST_F(KeptFiles, FormatsToConvertToAreListed) {

@@ -7,6 +7,7 @@
 
 #include "engine/volume/range_surface.h"
 #include "tests/engine/volume/plane_input.h"
+#include "tests/support/range_params.h"
 #include "tests/support/sphere_scene.h"
 
 namespace quorum {
@@ -180,7 +181,7 @@ TEST(Integrate, OnlyListedBlocksAreTouched) {
   const Camera camera = straight_camera(kIntegrateWidth, kIntegrateHeight, 160);
   const VoxelGrid grid = grid_around();
   const Grid<float> depth(kIntegrateWidth, kIntegrateHeight, 2.0F);
-  const auto cells = range_surface(depth, {kIntegrateWidth, kIntegrateHeight, 0.01F});
+  const auto cells = range_surface(depth, slope_alone(kIntegrateWidth, kIntegrateHeight, 0.01F));
   const Grid<std::uint32_t> weights(kIntegrateWidth, kIntegrateHeight, kWeight);
   const PaddedImage image = pad_image(ColorImage(kIntegrateWidth, kIntegrateHeight));
   const auto params = make_integrate_params(camera, kIntegrateWidth, kIntegrateHeight, grid);
