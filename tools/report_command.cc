@@ -24,6 +24,7 @@ Expected<void> write_page(const ReportArguments& arguments) {
   const ThreadLimit limit(arguments.options.threads);
   const Workspace workspace = Workspace::at(arguments.output);
   ConsoleProgress progress(arguments.quiet);
+  for (const std::string& note : scene.notes) progress.note(note);
   const auto written = write_report(scene, workspace, MemoryBudget(arguments.options.memory_bytes), progress);
   progress.finish();
   if (!written) return written;

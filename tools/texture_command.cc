@@ -32,6 +32,7 @@ Expected<void> texture_file(const TextureArguments& arguments) {
   const MemoryBudget budget(arguments.options.memory_bytes);
   ConsoleProgress progress(arguments.quiet);
   QUORUM_ASSIGN(const Scene scene, read_scene(arguments.scene, arguments.options.files));
+  for (const std::string& note : scene.notes) progress.note(note);
   QUORUM_ASSIGN(Mesh mesh, read_ply(arguments.mesh, scene.offset));
   auto textured = texture_scene(mesh, scene, arguments.texture, arguments.options.mask_below, budget, progress);
   progress.finish();

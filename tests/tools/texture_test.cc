@@ -61,6 +61,14 @@ TEST_F(TextureCommand, AnyNumberOfThreadsGivesTheSameBytes) {
   EXPECT_EQ(file_bytes(below("one.glb")), file_bytes(below("many.glb")));
 }
 
+TEST_F(TextureCommand, PhotographsGoneSinceAreTold) {
+  std::filesystem::remove(scene() / "temple0003.png");
+  const ProgramResult done =
+      quorum_program({"texture", truth(), "--scene", scene().string(), "-o", below("mesh.glb").string()});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(contains(done.err, "temple0003.png")) << done.err;
+}
+
 TEST_F(TextureCommand, ObjHasItsPicturesBesideIt) {
   ASSERT_EQ(texture("mesh.obj", {"--pages", "png"}).exit_code, 0);
   EXPECT_TRUE(contains(file_bytes(below("mesh.obj")), "mtllib mesh.mtl"));
