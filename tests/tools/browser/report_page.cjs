@@ -128,4 +128,4 @@ async function readWithoutWebGl() {
   await readOnPhone();
   await readWithoutWebGl();
   finish(wrong);
-})().catch((error) => { console.error(error.message); process.exitCode = 1; });
+})().catch((error) => { console.error(error.message); process.exit(1); });  // an open browser would keep it alive

@@ -68,4 +68,4 @@ async function load([base64, up]) {
   }
   await browser.close();
   finish(wrong);
-})().catch((error) => { console.error(error.message); process.exitCode = 1; });
+})().catch((error) => { console.error(error.message); process.exit(1); });  // an open browser would keep it alive
