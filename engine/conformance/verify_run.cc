@@ -54,13 +54,13 @@ Expected<RunOptions> options_of_run(const Workspace& workspace, const RunOptions
     return failure(ErrorKind::kInput,
                    fmt::format("{}: no finished run is here; run quorum reconstruct to its end first",
                                workspace.report_path().string()));
-  if (const std::string made_by = run.value("version", ""); made_by != version())
+  if (const Json made_by = run.value("version", Json()); made_by != Json(version()))
     return failure(ErrorKind::kInput,
                    fmt::format("{}: the run was made by Quorum {}, this is {}; verify it with that one",
-                               workspace.report_path().string(), made_by, version()));
+                               workspace.report_path().string(), made_by.dump(), version()));
   RunOptions options;
   if (auto taken = take_options(options, run["options"].dump(), RunStage::kScene, RunStage::kClean); !taken)
-    return std::unexpected(taken.error().within(workspace.report_path().string()));
+    return failure(ErrorKind::kInput, taken.error().within(workspace.report_path().string()).message);
   for (const RunStage stage : {RunStage::kNone, RunStage::kScene}) QUORUM_TRY(lay_over(options, given, stage));
   options.previews = Previews::kNone;
   options.saved_maps = SavedMaps::kAll;

@@ -7,9 +7,9 @@
 
 namespace quorum {
 
-/// The options of a finished run that change its results, from its run.json, and which maps it saved; others as given.
-/// What is given of the scene (folders) comes before what run.json says. Fails (kInput) if there is no run.json, or if
-/// it is of another version of Quorum.
+/// The options of a finished run that change its results, from its run.json; others as given. What is given of the
+/// scene (folders) comes before what run.json says. Fails (kInput) if there is no run.json, if it is of another version
+/// of Quorum, or if it holds what is no option.
 Expected<RunOptions> options_of_run(const Workspace& workspace, const RunOptions& given);
 
 /// What two workspaces hold, stage by stage.

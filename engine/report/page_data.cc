@@ -17,6 +17,7 @@
 #include "engine/report/holes.h"
 #include "engine/report/packed_mesh.h"
 #include "engine/report/page_texture.h"
+#include "engine/report/run_record.h"
 
 namespace quorum {
 namespace {
@@ -110,16 +111,6 @@ Json camera_json(const View& view) {
           {"middle", {view.camera.intrinsics(0, 2), view.camera.intrinsics(1, 2)}}};
 }
 
-/// The views that a depth map was made with, from its record; none if it has none.
-Json neighbor_names(const Workspace& workspace, const std::string& view) {
-  const Json record = Json::parse(workspace.depth_record(view), nullptr, false);
-  if (!record.is_object()) return Json::array();
-  Json names = Json::array();
-  for (const Json& neighbor : record.value("neighbors", Json::array()))
-    if (neighbor.is_object()) names.push_back(neighbor.value("name", ""));
-  return names;
-}
-
 /// One view: its pictures, and what its depth map says of the vertices. counts: as count_views.
 Expected<Json> view_json(const Workspace& workspace, const View& view, ImageStore& images, int index, int width,
                          const Grid<float>& depth) {
@@ -139,37 +130,6 @@ Expected<Json> view_json(const Workspace& workspace, const View& view, ImageStor
               {"photograph", picture},
               {is_confirmed ? "certainty" : "depth", preview},
               {"sha256", sha256(bytes)}};
-}
-
-Expected<Json> read_run(const Workspace& workspace) {
-  const auto text = read_file(workspace.report_path());
-  Json run = text ? Json::parse(*text, nullptr, false) : Json();
-  if (!run.is_object())
-    return failure(ErrorKind::kInput,
-                   fmt::format("{}: no finished run is here; run quorum reconstruct to its end first",
-                               workspace.report_path().string()));
-  return run;
-}
-
-/// What `quorum verify` has left of this run; empty if nothing.
-Json read_verified(const Workspace& workspace) {
-  const auto text = read_file(workspace.verified_path());
-  const Json verified = text ? Json::parse(*text, nullptr, false) : Json();
-  return verified.is_object() ? verified : Json::object();
-}
-
-/// The box of the run, which its options may have given, in the frame of the scene; that of the scene if run.json has
-/// none.
-Bounds bounds_of(const Json& run, const Scene& scene) {
-  const Json box = run.value("scene", Json::object()).value("bounds", Json::array());
-  Bounds bounds = scene.bounds;
-  for (std::size_t corner = 0; corner < 2; ++corner)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (box.size() != 2 || box[corner].size() != 3 || !box[corner][axis].is_number()) return scene.bounds;
-      const auto place = static_cast<Eigen::Index>(axis);
-      (corner == 0 ? bounds.low : bounds.high)(place) = box[corner][axis].get<double>() - scene.offset(place);
-    }
-  return bounds;
 }
 
 /// JSON that no name of a view can end early as it stands in a page.
@@ -197,7 +157,8 @@ Expected<std::string> page_data(const Scene& scene, const Workspace& workspace, 
       const TexturedMesh shown,
       texture_for_page(is_large ? simplify(whole, {.triangles = kPageTriangles}) : whole, scene, budget, progress));
   const Mesh& mesh = shown.mesh;
-  const double tolerance = run.value("volume", Json::object()).value("truncation", scene.bounds.size().norm() / 200);
+  const Json truncation = run.value("volume", Json::object()).value("truncation", Json());
+  const double tolerance = truncation.is_number() ? truncation.get<double>() : scene.bounds.size().norm() / 200;
 
   std::vector<Hole> holes = find_holes(whole, bounds_of(run, scene));
   std::vector<int> counts(mesh.vertices.size());

@@ -73,6 +73,14 @@ TEST_F(Report, WhereTheRunsOwnBoxCutsTheSurfaceNothingIsMissing) {
   EXPECT_LT(at_the_cut, 20);
 }
 
+TEST_F(Report, ADamagedRecordIsNoFinishedRun) {
+  std::filesystem::create_directory(result());
+  for (const char* bad : {"{", "[]", R"({"scene": 3})", R"({"volume": "x"})"}) {
+    write_text(result() / "run.json", bad);
+    expect_failure(quorum_program({"report", result().string(), "--scene", scene().string()}), 3, {"run.json"});
+  }
+}
+
 TEST_F(Report, WithoutAFinishedRunItSaysSo) {
   expect_failure(quorum_program({"report", result().string(), "--scene", scene().string()}), 3,
                  {"run.json", "quorum reconstruct"});

@@ -68,6 +68,17 @@ TEST_F(VerifyRun, OtherPhotographsAreToldFromAnotherResult) {
   expect_failure(verify(), 3, {"depth.json", "other files"});
 }
 
+TEST_F(VerifyRun, ADamagedRecordOfTheRunIsRefusedWithItsName) {
+  ASSERT_EQ(reconstruct().exit_code, 0);
+  const std::string good = file_bytes(result() / "run.json");
+  std::string other = good;
+  other.replace(other.find("\"window\": 7"), 11, "\"window\": 8");
+  for (const std::string& bad : {std::string("{"), std::string(R"({"version": 3, "options": 5})"), other}) {
+    write_text(result() / "run.json", bad);
+    expect_failure(verify(), 3, {"run.json"});
+  }
+}
+
 TEST_F(VerifyRun, WithoutARunOrASceneItSaysSo) {
   expect_failure(verify(), 3, {"run.json", "quorum reconstruct"});
   expect_failure(quorum_program({"verify", result().string()}), 2, {"--scene"});

@@ -338,7 +338,7 @@ function showRun() {
   const add = (name, value) => { if (value !== undefined && value !== null) table.append(row(name, String(value))); };
   add('Quorum', run.version);
   add('Device', run.device);
-  const verified = data.verified.version === run.version ? data.verified.devices : [];
+  const verified = data.verified.version === run.version && Array.isArray(data.verified.devices) ? data.verified.devices : [];
   add('Verified on', verified.length > 0 ? verified.join(', ') : 'no device yet: quorum verify OUT --scene SCENE');
   add('Wall seconds', run.wall_seconds && run.wall_seconds.toFixed(1));
   add('CPU seconds', run.cpu_seconds && run.cpu_seconds.toFixed(1));
