@@ -10,7 +10,7 @@ set(long_tests
   PointScene.AllFormats* PointScene.Bounds* CameraPath.OfA* CameraPath.With* CameraPath.Around*
   BackendsParity.ImagesOf* BackendsParity.DepthMapsAreEqual* FuseViewsParity.HolesAreFilledWhere*
   VoteDepthParity.Seeded* SweepDepth*Parity.Every* SweepDepth*Parity.TheSecond* Reconstruct.MeshIsNear*
-  Reconstruct.Threads* Reconstruct.DepthThenFuse* Reconstruct.FillHoles* Reconstruct.OtherOptions*
+  Bounds.* Reconstruct.Threads* Reconstruct.DepthThenFuse* Reconstruct.FillHoles* Reconstruct.OtherOptions*
   Reconstruct.Progress* Reconstruct.Vulkan* Reconstruct.ViewsWithout* Reconstruct.SceneWithout*
   Reconstruct.RenderByError* Plans.Sizes* Report.Names* Report.Where* ApiReconstruct.FilesAnd*
   ApiReconstruct.MasksOf* ApiReconstruct.TwoRuns* ApiReconstruct.AStopped* ApiPoints.NeighborsOf*

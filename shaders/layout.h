@@ -57,6 +57,12 @@ const float kLooksThrough = 2.0f;
 // What each of these adds to a depth's support.
 const int kSupportOfAgreement = 2;
 const int kSupportOfLookingThrough = -1;
+// So much that no agreement outweighs it: the depth denies a surer one of the other view.
+const int kSupportOfDenial = -1000;
+
+// What confirm_depths does beside adding, as bits.
+const uint kFirstOfViews = 1u;  // sums start anew
+const uint kFindsDenials = 2u;  // certainties are known, from the round before
 
 // Factors of a vertex's weight, as bits.
 const uint kWeighConfidence = 1u;
@@ -268,15 +274,17 @@ QUORUM_SIZE(RefinePlanesLanesParams, 52);
 // confirm_depths: what one other view's depth map says of the depths of a view.
 struct ConfirmDepthsParams {
   PlaneWarp warp;  // to the other view
+  PlaneWarp back;  // and from it
   int width;
   int height;
-  int other_width;       // pixels
-  int other_height;      // pixels
-  float other_max_step;  // as in RangeSurfaceParams
-  float footprint;       // of one of the other view's pixels, as a share of the depth there
-  int is_first;          // 1: of the other views; sums start anew
+  int other_width;        // pixels
+  int other_height;       // pixels
+  float other_max_step;   // as in RangeSurfaceParams
+  float footprint;        // of one of the view's pixels, as a share of the depth there
+  float other_footprint;  // of one of the other view's
+  uint steps;             // bits kFirstOfViews, kFindsDenials
 };
-QUORUM_SIZE(ConfirmDepthsParams, 76);
+QUORUM_SIZE(ConfirmDepthsParams, 128);
 
 // A normal in a word: x, y and z in kNormalBits each, from the lowest on, as kNormalScale * value + kNormalZero. The
 // word 0 is no normal.

@@ -102,15 +102,13 @@ SweepTask make_half_task(const SweepTask& task, const DepthMap& full, const View
 }
 
 void take_from_half(const SweepTask& task, const SweepTask& half, const DepthMap& coarse, DepthMap& map) {
-  constexpr float kLeastCorrelation = 0.8F;
   constexpr float kShareOfConfidence = 0.25F;
   const float most_difference = 4.0F * half.planes.step();
   const Eigen::Matrix3d rays = task.intrinsics.inverse();
   const Eigen::Matrix3d half_rays = half.intrinsics.inverse();
   for (int y = 0; y < coarse.depth.height; ++y) {
     for (int x = 0; x < coarse.depth.width; ++x) {
-      if (coarse.depth.at(x, y) == 0.0F || coarse.correlation.at(x, y) < kLeastCorrelation) continue;
-      if (!is_inside_patch(coarse, x, y, most_difference)) continue;
+      if (coarse.depth.at(x, y) == 0.0F || !is_inside_patch(coarse, x, y, most_difference)) continue;
       const Eigen::Vector3d normal = coarse.normal.at(x, y).cast<double>();
       const double offset =
           normal.dot(half_rays * Eigen::Vector3d(x, y, 1.0)) * static_cast<double>(coarse.depth.at(x, y));

@@ -8,7 +8,8 @@
 namespace quorum {
 
 void drop_specks(const Grid<float>& depth, float max_step, int least_pixels, Grid<float>& certainty) {
-  constexpr float kSteeper = 2.5F;  // so that what turns away is not torn to pieces
+  constexpr float kSteeper = 2.5F;    // so that what turns away is not torn to pieces
+  constexpr double kConfirmed = 0.6;  // a depth of which no other view says anything has 0.52
   if (least_pixels <= 0) return;
   DisjointSets sets(depth.values.size());
   const auto number = [&](int x, int y) { return static_cast<std::uint32_t>(y * depth.width + x); };
@@ -31,7 +32,7 @@ void drop_specks(const Grid<float>& depth, float max_step, int least_pixels, Gri
   }
   for (std::uint32_t pixel = 0; pixel < depth.values.size(); ++pixel) {
     const std::uint32_t patch = sets.find(pixel);
-    if (pixels[patch] < least_pixels && sum[patch] < 0.5 * pixels[patch]) certainty.values[pixel] = 0.0F;
+    if (pixels[patch] < least_pixels && sum[patch] < kConfirmed * pixels[patch]) certainty.values[pixel] = 0.0F;
   }
 }
 

@@ -7,7 +7,7 @@
 namespace quorum {
 
 /// Sets the certainty to 0, which means that a depth takes no part, in patches of fewer than least_pixels with a mean
-/// certainty below a half. A patch is what steps of at most 2.5 times max_step join along rows and columns. depth,
+/// certainty below 0.6. A patch is what steps of at most 2.5 times max_step join along rows and columns. depth,
 /// certainty: of one view, of one size. max_step: as in RangeSurfaceParams. least_pixels: 0 = drop none.
 void drop_specks(const Grid<float>& depth, float max_step, int least_pixels, Grid<float>& certainty);
 

@@ -63,7 +63,8 @@ MemoryEstimate depth_map_in_flight_memory(const Scene& scene, const RunOptions& 
 
 MemoryEstimate confirm_memory(const Scene& scene, const std::vector<int>& views, const Backend& backend) {
   const std::uint64_t pixels = most_pixels(scene, views);
-  return {{{"ConfirmTask: depths, of two views", 2 * 4 * (1 + kConfirmingViews) * pixels},
+  return {{{"ConfirmTask: depths and certainties, of two views", 2 * 8 * (1 + kConfirmingViews) * pixels},
+           {"depth maps that were read last", 4 * kRecentDepthMaps * pixels},
            {"confirm_depths: support and certainty", (4 + 8) * pixels},
            {"Workspace::save_certainty: the map, a file's bytes, a picture", 16 * pixels},
            {"Backend::confirm_depths", backend.view_bytes(pixels, 0)}}};

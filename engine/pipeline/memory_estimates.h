@@ -49,6 +49,9 @@ MemoryEstimate depth_map_memory(const Scene& scene, const RunOptions& options, c
 /// What one view more in flight takes: its photographs, read further ahead, and its maps, while they are written.
 MemoryEstimate depth_map_in_flight_memory(const Scene& scene, const RunOptions& options);
 
+/// Depth maps that are kept while views are confirmed.
+constexpr std::uint64_t kRecentDepthMaps = 12;
+
 /// The certainty of a view. views: that have a depth map, here and below.
 MemoryEstimate confirm_memory(const Scene& scene, const std::vector<int>& views, const Backend& backend);
 

@@ -108,15 +108,18 @@ const std::string& Provenance::digest_of_record(int view) {
   return place->second;
 }
 
-std::string Provenance::certainty_record(int view, const std::vector<int>& others) {
+std::string Provenance::certainty_record(int view, const std::vector<int>& others, const std::vector<int>& reach) {
   if (digest_of_record(view).empty()) return "";
   Json compared = Json::array();
   for (const int other : others)
     compared.push_back({{"name", run_.view(other).name}, {"depth_map", digest_of_record(other)}});
+  Sha256 further;
+  for (const int other : reach) further.add(run_.view(other).name + "\n" + digest_of_record(other) + "\n");
   const Json record = {{"version", kFusionVersion},
                        {"options", options_of(run_, RunStage::kConfirm)},
                        {"depth_map", digest_of_record(view)},
-                       {"others", compared}};
+                       {"others", compared},
+                       {"all", further.hex()}};
   return record.dump(2) + "\n";
 }
 

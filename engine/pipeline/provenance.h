@@ -20,8 +20,9 @@ class Provenance {
   /// if a file can't be read.
   Expected<std::string> depth_record(int view, const std::vector<int>& neighbors);
   /// Of a view's certainty: version, options, and the records of the depth maps that it was made from, which are in the
-  /// workspace. Empty if the view's own map has none.
-  [[nodiscard]] std::string certainty_record(int view, const std::vector<int>& others);
+  /// workspace: those of the views that it is compared with, and of all in reach, whose certainties have a part in it.
+  /// Empty if the view's own map has none.
+  [[nodiscard]] std::string certainty_record(int view, const std::vector<int>& others, const std::vector<int>& reach);
   /// Of a shard's part of the surface: version, options, the grid, and the records of depth maps and certainties that
   /// it was made from, which are in the workspace.
   [[nodiscard]] std::string surface_record(const std::vector<int>& views, const VoxelGrid& grid, const Shard& shard);

@@ -133,6 +133,8 @@ std::string run_json(const Run& run) {
                       {"filled_vertices", report.filled_vertices}}},
                     {"kept_depth_maps", report.kept_depth_maps},
                     {"kept_certainties", report.kept_certainties},
+                    {"compared_depths", report.compared_depths},
+                    {"confirmed_depths", report.confirmed_depths},
                     {"depth_maps", views}};
   return all.dump(2) + "\n";
 }

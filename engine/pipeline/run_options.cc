@@ -50,6 +50,7 @@ std::vector<RunOption> make_table() {
   });
   add(RunStage::kConfirm, {
     Make::toggle("confirm", AT(confirm), "The paper's confidence alone: depths don't gain or lose by what other views' depth maps say"),
+    Make::number("confirm-rounds", AT(confirm_rounds), {0, 8}, "Rounds in which depths are dropped that look through surer depths of other views; 0: they weigh less alone"),
     Make::number("min-patch", AT(min_patch), {}, "Leave out patches of a depth map that no other view confirms, of fewer pixels (at most a 1500th of the image); 0: keep all"),
     Make::number("max-slope", AT(fusion.max_slope_deg), {10, 89}, "Steepest triangle of a depth map, degrees"),
   });

@@ -26,6 +26,7 @@ struct RunOptions {
   SweepOptions sweep;
   double mask_below = 0.0;  ///< level of the dark-background mask, 0..1; 0 = none (paper 4.6)
   bool confirm = true;      ///< weigh depths by what other views' depth maps make of them, not by conf(d)
+  int confirm_rounds = 3;   ///< in which depths go that deny surer ones of other views, 0..8
   int min_patch = 200;      ///< pixels; smaller patches of a depth map that no other view confirms take no part
   FusionOptions fusion;
   std::optional<float> min_confidence;  ///< for CleanOptions; empty = from the mesh itself

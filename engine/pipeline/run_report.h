@@ -37,8 +37,10 @@ struct RunReport {
   std::vector<ViewReport> views;  ///< whose depth map this run made
   int kept_depth_maps = 0;        ///< that earlier runs made of the same
   int kept_certainties = 0;
-  double voxel_size = 0.0;  ///< scene units
-  double truncation = 0.0;  ///< scene units
+  std::uint64_t compared_depths = 0;   ///< of the views whose certainty this run made
+  std::uint64_t confirmed_depths = 0;  ///< those of them that another view's depths confirm
+  double voxel_size = 0.0;             ///< scene units
+  double truncation = 0.0;             ///< scene units
   std::uint64_t memory_budget_bytes = 0;
   std::uint64_t estimated_memory_bytes = 0;  ///< that the process would hold at most (memory_estimates.h)
   std::uint64_t blocks = 0;

@@ -6,6 +6,10 @@
 // has no depth there, says nothing. How often depths of a given support were right on scenes with known surface gives
 // the certainty: docs/quality.md. The idea is old; see P. Merrell et al., Real-Time Visibility-Based Fusion of Depth
 // Maps, ICCV 2007.
+//
+// Where two views contradict each other, the less certain one is wrong, as a rule. In rounds after the first a depth is
+// denied if what another view sees in front of it lies where the view itself looks through, and is more certain than
+// the depth. A denied depth takes no part any more: its certainty is 0.
 #pragma once
 
 #include <vector>
@@ -23,8 +27,9 @@ constexpr int kConfirmingViews = 6;
 
 /// A view's depths with its camera.
 struct ViewDepths {
-  Grid<float> depth;  ///< scene units; 0 = none
+  Grid<float> depth;  ///< scene units; 0 = none, or denied in a round before
   Camera camera;
+  Grid<float> certainty = {};  ///< of the round before, of depth's size; empty in the first
 };
 
 /// A view whose depths are confirmed, and the others, at most kConfirmingViews.
@@ -39,11 +44,15 @@ ConfirmDepthsParams make_confirm_depths_params(const ConfirmTask& task, std::siz
 /// Adds to the support of each depth of a view what one other view says: kSupportOfAgreement if its depth at the
 /// point's projection lies within kAgreement footprints of a pixel, as much again if within kCloseAgreement, and
 /// kSupportOfLookingThrough if it lies more than kLooksThrough behind. The other depth is interpolated where its cell
-/// has no step, and that of the nearest pixel elsewhere. 0 where the view has no depth. support: of the view's size.
-void confirm_depths(const Grid<float>& depth, const Grid<float>& other, const ConfirmDepthsParams& params,
+/// has no step, and that of the nearest pixel elsewhere. kSupportOfDenial if both have certainties and the other's
+/// nearest depth lies more than kLooksThrough in front of the point, is more certain, and projects into a cell of the
+/// view whose depths lie all more than kLooksThrough behind it. 0 where the view has no depth. support: of the view's
+/// size.
+void confirm_depths(const ViewDepths& view, const ViewDepths& other, const ConfirmDepthsParams& params,
                     Grid<int>& support);
 
-/// The share of depths of this support that lay within a pixel's footprint of the true surface; in 1/256, 0..1.
+/// The share of depths of this support that lay within a pixel's footprint of the true surface; in 1/256, 0..1. 0 of
+/// one that was denied.
 float certainty_of(int support);
 
 /// The certainty of each depth from its support; 0 where there is no depth.

@@ -28,7 +28,7 @@ bool has_masks(const Run& run) {
          std::ranges::any_of(run.scene.views, [](const View& view) { return !view.mask_path.empty(); });
 }
 
-/// Cameras that are not those of the photographs leave a few depths by chance, and a mesh of crumbs.
+/// Cameras that are not those of the photographs leave a few depths by chance, or many that don't fit each other.
 void tell_few_depths(Run& run) {
   // With wrong focal lengths or poses 2 to 5 % were seen, with right ones 10 % and more. Tiny views tell neither: right
   // ones of 96 pixels had 5.5 %.
@@ -43,11 +43,22 @@ void tell_few_depths(Run& run) {
     swept += static_cast<double>(view.swept_pixels);
     valid += static_cast<double>(view.valid_pixels);
   }
-  if (valid < kFew * swept)
+  if (valid < kFew * swept) {
     run.progress.note(
         fmt::format("only {:.1f} % of the pixels got a depth: check that the cameras belong to these photographs, take "
                     "more of them, or say where the object is ({}, {})",
                     100.0 * valid / swept, option_name("bounds"), option_name("masks")));
+    return;
+  }
+  // Right cameras had 45 to 84 %, wrong ones 10 to 25.
+  constexpr double kUnconfirmed = 0.3;
+  const auto compared = static_cast<double>(run.report.compared_depths);
+  const auto confirmed = static_cast<double>(run.report.confirmed_depths);
+  if (confirmed < kUnconfirmed * compared)
+    run.progress.note(fmt::format(
+        "other views confirm only {:.0f} % of the depths: check that the cameras belong to these photographs, or take "
+        "more of them",
+        100.0 * confirmed / compared));
 }
 
 /// What would help, as far as the run shows it.

@@ -73,8 +73,8 @@ TEST_F(LayoutParity, RefinePlanesParamsAreReadMemberByMember) {
 TEST_F(LayoutParity, ConfirmDepthsParamsAreReadMemberByMember) {
   const auto p = numbered<ConfirmDepthsParams>();
   compare("probe_confirm_depths_params", p,
-          words_of(p.warp.rotation, p.warp.offset, p.width, p.height, p.other_width, p.other_height, p.other_max_step,
-                   p.footprint, p.is_first));
+          words_of(p.warp.rotation, p.warp.offset, p.back.rotation, p.back.offset, p.width, p.height, p.other_width,
+                   p.other_height, p.other_max_step, p.footprint, p.other_footprint, p.steps));
 }
 
 TEST_F(LayoutParity, CollectParamsAreReadMemberByMember) {

@@ -286,7 +286,7 @@ TEST_F(BadInput, ExperimentNamesWhatItKnowsAndWhatItMisses) {
 }
 
 TEST_F(BadInput, CamerasOfOtherPhotographsAreToldAndTinyScenesAreNot) {
-  const auto notes = [&](int views, int width, double focal_factor) {
+  const auto notes = [&](int views, int width, double focal_factor, const std::vector<std::string>& more = {}) {
     for (const auto& place : {scene(), result()}) std::filesystem::remove_all(place);
     synthesize(views, width);
     for (std::size_t line = 1; line <= static_cast<std::size_t>(views); ++line)
@@ -295,11 +295,17 @@ TEST_F(BadInput, CamerasOfOtherPhotographsAreToldAndTinyScenesAreNot) {
         const std::vector<std::string> fields{std::istream_iterator<std::string>(text), {}};
         set_field(line, field, std::to_string(focal_factor * std::stod(fields[field])));
       }
-    return quorum_program({"reconstruct", scene().string(), "-o", result().string(), "--device", "cpu"}).err;
+    std::vector<std::string> arguments = {"reconstruct", scene().string(), "-o", result().string(), "--device", "cpu"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return quorum_program(arguments).err;
   };
   const std::string doubt = "belong to these photographs";
-  EXPECT_TRUE(contains(notes(6, 128, 0.6), doubt));
-  EXPECT_FALSE(contains(notes(6, 128, 1.0), doubt));
+  EXPECT_TRUE(contains(notes(8, 160, 0.6), "other views confirm only"));
+  EXPECT_TRUE(contains(notes(8, 160, 0.6), doubt));
+  EXPECT_FALSE(contains(notes(8, 160, 1.0), doubt));
+  EXPECT_TRUE(contains(notes(6, 128, 0.6), "check the cameras")) << "nothing is left";
+  const std::vector<std::string> keep_all = {"--no-confirm", "--min-confidence", "0", "--min-component", "0"};
+  EXPECT_TRUE(contains(notes(8, 160, 0.3, keep_all), "of the pixels got a depth"));
   EXPECT_FALSE(contains(notes(6, 96, 1.0), doubt)) << "5 % of so few pixels say nothing";
 }
 

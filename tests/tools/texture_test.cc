@@ -100,7 +100,7 @@ TEST_F(TextureCommand, WhatCanNotBeDoneIsALineAndACode) {
 
 TEST_F(TextureCommand, ReconstructWritesAModelOfFewerTriangles) {
   std::filesystem::remove_all(scene());
-  synthesize(8, 128);
+  synthesize(8, 192);
   std::vector<std::string> arguments = {
       "reconstruct", scene().string(), "-o", below("out").string(), "--device", "cpu", "--quiet",
       "--texture",   "--triangles",    "2k", "--step-pixels",       "4"};

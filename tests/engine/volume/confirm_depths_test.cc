@@ -27,7 +27,7 @@ ViewDepths plane_seen_from(double x, double depth) {
 int support_by(double other_depth) {
   const ConfirmTask task{plane_seen_from(0, kDepth), {plane_seen_from(0.1, other_depth)}, {}};
   Grid<int> support(kSide, kSide);
-  confirm_depths(task.view.depth, task.others[0].depth, make_confirm_depths_params(task, 0), support);
+  confirm_depths(task.view, task.others[0], make_confirm_depths_params(task, 0), support);
   return support.at(kCenter, kCenter);
 }
 
@@ -53,13 +53,13 @@ TEST(ConfirmDepths, WhatAnotherViewDoesNotSeeItDoesNotSupport) {
   // The other view is 0.3 to the right: 15 pixels of the plane's left part leave its image.
   const ConfirmTask task{plane_seen_from(0, kDepth), {plane_seen_from(0.3, kDepth)}, {}};
   Grid<int> support(kSide, kSide);
-  confirm_depths(task.view.depth, task.others[0].depth, make_confirm_depths_params(task, 0), support);
+  confirm_depths(task.view, task.others[0], make_confirm_depths_params(task, 0), support);
   EXPECT_EQ(support.at(14, kCenter), 0);
   EXPECT_EQ(support.at(16, kCenter), 4);
   // It is behind the plane and looks away.
   ConfirmTask behind = task;
   behind.others[0].camera.translation = {0, 0, -3};
-  confirm_depths(behind.view.depth, behind.others[0].depth, make_confirm_depths_params(behind, 0), support);
+  confirm_depths(behind.view, behind.others[0], make_confirm_depths_params(behind, 0), support);
   EXPECT_EQ(support.at(kCenter, kCenter), 0);
 }
 
@@ -76,8 +76,49 @@ TEST(ConfirmDepths, ASlantedSurfaceIsInterpolated) {
   ConfirmDepthsParams params = make_confirm_depths_params(task, 0);
   params.footprint *= 0.02F;  // agreement to a hundredth of a footprint
   Grid<int> support(kSide, kSide);
-  confirm_depths(task.view.depth, task.others[0].depth, params, support);
+  confirm_depths(task.view, task.others[0], params, support);
   for (int x = 10; x < 30; ++x) EXPECT_EQ(support.at(x, kCenter), 4) << x;
+}
+
+/// A wall at kDepth, of which the view sees another, further one in place of the wall in a square around its middle.
+/// What the view beside it sees in front of the square's depths is the wall.
+ConfirmTask task_with_a_pit(double pit_depth, float certainty, float other_certainty) {
+  constexpr int kPit = 8;  // half of its side, pixels
+  ConfirmTask task{plane_seen_from(0, kDepth), {plane_seen_from(0.11, kDepth)}, {}};
+  for (int y = kCenter - kPit; y <= kCenter + kPit; ++y)
+    for (int x = kCenter - kPit; x <= kCenter + kPit; ++x) task.view.depth.at(x, y) = static_cast<float>(pit_depth);
+  task.view.certainty = Grid<float>(kSide, kSide, certainty);
+  task.others[0].certainty = Grid<float>(kSide, kSide, other_certainty);
+  return task;
+}
+
+TEST(ConfirmDepths, ADepthThatLooksThroughASurerOneIsDenied) {
+  constexpr double kPitDepth = kDepth + 4 * kFootprint;
+  const auto center_of = [](const ConfirmTask& task) { return confirm_depths(task).at(kCenter, kCenter); };
+  EXPECT_EQ(center_of(task_with_a_pit(kPitDepth, 0.25F, 0.5F)), 0.0F);
+  EXPECT_EQ(center_of(task_with_a_pit(kPitDepth, 0.5F, 0.5F)), certainty_of(0)) << "as sure as the other";
+  EXPECT_EQ(center_of(task_with_a_pit(kPitDepth, 0.5F, 0.25F)), certainty_of(0)) << "surer than the other";
+  EXPECT_EQ(center_of(task_with_a_pit(kDepth + 1.9 * kFootprint, 0.25F, 0.5F)), certainty_of(0)) << "not far enough";
+  ConfirmTask first = task_with_a_pit(kPitDepth, 0.25F, 0.5F);
+  first.view.certainty = {};
+  EXPECT_EQ(center_of(first), certainty_of(0)) << "no round came before";
+  EXPECT_EQ(confirm_depths(task_with_a_pit(kPitDepth, 0.25F, 0.5F)).at(3 * kCenter / 2 + 1, 2), certainty_of(4))
+      << "the wall that both see";
+}
+
+TEST(ConfirmDepths, WhatTheViewSeesItselfDoesNotDeny) {
+  // The wall hides the pit from the other view, but the view sees the wall beside the pit, at the pixels where the
+  // other's depths in front of the pit's border lie.
+  constexpr int kPitBorder = kCenter + 8;
+  constexpr double kDeep = 3 * kDepth;
+  const ConfirmTask task = task_with_a_pit(kDeep, 0.25F, 0.5F);
+  const Grid<float> certainty = confirm_depths(task);
+  EXPECT_GT(certainty.at(kPitBorder, kCenter), 0.0F);
+  // The wall in one of the four pixels around is enough.
+  ConfirmTask pillar = task_with_a_pit(kDepth + 4 * kFootprint, 0.25F, 0.5F);
+  pillar.view.depth.at(kCenter + 1, kCenter) = static_cast<float>(kDepth);
+  EXPECT_GT(confirm_depths(pillar).at(kCenter, kCenter), 0.0F);
+  EXPECT_EQ(confirm_depths(pillar).at(kCenter + 3, kCenter), 0.0F);
 }
 
 TEST(ConfirmDepths, CertaintyRisesWithSupport) {

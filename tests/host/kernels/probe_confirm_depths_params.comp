@@ -10,11 +10,14 @@ layout(std430, binding = 0) writeonly buffer Words { uint words[]; };
 void main() {
   for (int i = 0; i < 9; ++i) words[i] = floatBitsToUint(p.warp.rotation[i]);
   for (int i = 0; i < 3; ++i) words[9 + i] = floatBitsToUint(p.warp.offset[i]);
-  words[12] = uint(p.width);
-  words[13] = uint(p.height);
-  words[14] = uint(p.other_width);
-  words[15] = uint(p.other_height);
-  words[16] = floatBitsToUint(p.other_max_step);
-  words[17] = floatBitsToUint(p.footprint);
-  words[18] = uint(p.is_first);
+  for (int i = 0; i < 9; ++i) words[12 + i] = floatBitsToUint(p.back.rotation[i]);
+  for (int i = 0; i < 3; ++i) words[21 + i] = floatBitsToUint(p.back.offset[i]);
+  words[24] = uint(p.width);
+  words[25] = uint(p.height);
+  words[26] = uint(p.other_width);
+  words[27] = uint(p.other_height);
+  words[28] = floatBitsToUint(p.other_max_step);
+  words[29] = floatBitsToUint(p.footprint);
+  words[30] = floatBitsToUint(p.other_footprint);
+  words[31] = p.steps;
 }
