@@ -1,5 +1,6 @@
 #include "engine/depth/plane_moves.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -8,12 +9,13 @@ namespace quorum {
 
 std::vector<std::vector<PlaneMove>> plane_rounds(const DepthPlanes& planes, int window) {
   constexpr int kRounds = 3;
+  constexpr std::array<int, kRounds> kFar = {8, 5, 3};
   std::vector<std::vector<PlaneMove>> rounds;
   for (int round = 0; round < kRounds; ++round) {
     const float depth = std::ldexp(planes.step(), -1 - round);
     const float slope = 2.0F * depth / static_cast<float>(window);
     std::vector<PlaneMove> moves;
-    for (const int distance : {1, 3})
+    for (const int distance : {1, kFar[static_cast<std::size_t>(round)]})
       for (const auto& [x, y] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
         moves.push_back({distance * x, distance * y, 0.0F, 0.0F, 0.0F, depth, slope, 0});
     for (const auto& [w, x, y] : {std::tuple{depth, 0.0F, 0.0F}, {0.0F, slope, 0.0F}, {0.0F, 0.0F, slope}}) {

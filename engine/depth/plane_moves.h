@@ -15,10 +15,10 @@ namespace quorum {
 /// No plane.
 constexpr PixelPlane kNoPlane{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0};
 
-/// The moves of all rounds, in their order. A round tries the planes of the neighbors at distance 1 and 3, then a step
-/// either way in depth and in both slopes. Steps begin with half a step of the first pass, and slopes with what moves
-/// the windows' borders by as much; they halve from round to round. A neighbor's plane within these steps of the
-/// pixel's own is not tried: the steps search there. window: side, pixels.
+/// The moves of all rounds, in their order. A round tries the planes of the pixels at distance 1, and of those at 8, 5
+/// or 3 from round to round, then a step either way in depth and in both slopes. Steps begin with half a step of the
+/// first pass, and slopes with what moves the windows' borders by as much; they halve from round to round. A neighbor's
+/// plane within these steps of the pixel's own is not tried: the steps search there. window: side, pixels.
 std::vector<std::vector<PlaneMove>> plane_rounds(const DepthPlanes& planes, int window);
 
 /// Where the planes of a pixel may cross its ray: in the bounds, and up to infinity if task.outside is not empty.

@@ -15,7 +15,7 @@ struct FusionOptions {
   double max_slope_deg = 75;  ///< steepest triangle of a range surface against the image plane, 10..89
   /// Where a triangle is steeper than 40 degrees, how far one end of each edge may lie off the plane of the other,
   /// footprints of a pixel; 0 = anywhere.
-  double plane_agreement = 0.85;
+  double plane_agreement = 0.95;
   int feather = 1;  ///< pixels over which weights rise from a border of a range surface, 0..8
   SignedDistance signed_distance = SignedDistance::kNormal;
   bool weigh_confidence = true;  ///< a vertex weighs by its confidence
