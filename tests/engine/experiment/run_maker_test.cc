@@ -35,7 +35,7 @@ TEST_F(RunMakerTest, MeasuresARunAndKeepsItsPictures) {
   EXPECT_LT(record->depth.median_error.value(), 0.01);
   EXPECT_GT(record->mesh.vertices, 100U);
   ASSERT_TRUE(record->mesh.evaluation);
-  EXPECT_GT(record->mesh.evaluation->completeness, 0.03);
+  EXPECT_GT(record->mesh.evaluation->completeness, 0.02);
   EXPECT_GE(record->cpu_seconds, record->depth_cpu_seconds);
   EXPECT_EQ(record->voxel_size, 0.003);
   for (const Picture picture : {Picture::kPhoto, Picture::kDepth, Picture::kCorrelation, Picture::kConfidence,
