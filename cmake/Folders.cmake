@@ -45,7 +45,7 @@ set(QUORUM_FOLDERS
   "engine/experiment  | core scene volume mesh render evaluate synthetic io pipeline | fmt json"
   "engine/report      | core camera image scene mesh io texture pipeline             | Eigen fmt json"
   "engine/conformance | core scene synthetic io pipeline                             | fmt json"
-  "host               | shaders engine                                               | fmt Vulkan SPIRV"
+  "host               | shaders engine                                               | fmt TBB Vulkan SPIRV"
   "host/run           | engine host                                                  | fmt TBB"
   "host/api           | engine host host/run                                         | fmt API"
   "tools              | engine host host/run                                         | fmt TBB json CLI11"

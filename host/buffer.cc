@@ -15,24 +15,28 @@ namespace {
 using Flag = vk::MemoryPropertyFlagBits;
 using Usage = vk::BufferUsageFlagBits;
 
-constexpr std::uint64_t kWord = 4;                  // kernels and vkCmdFillBuffer work on whole words
-constexpr std::uint64_t kStagingBytes = 16U << 20;  // a copy of this size takes far longer than its submission
+constexpr std::uint64_t kWord = 4;  // kernels and vkCmdFillBuffer work on whole words
 
 std::string in_mib(std::uint64_t bytes) { return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1U << 20)); }
 
-Allocation allocate_storage(const Device::State& device, std::uint64_t capacity) {
+/// Memory for a buffer: mapped, or else what another one gave back, or new.
+Allocation allocate_storage(Device::State& device, std::uint64_t capacity) {
   const vk::BufferUsageFlags usage =
       Usage::eStorageBuffer | Usage::eUniformTexelBuffer | Usage::eTransferSrc | Usage::eTransferDst;
-  // Mapped memory is used directly only where the host also reads it fast (cached): integrated GPUs and software.
-  // Discrete GPUs have a window into their memory, but reading through it is slower than a copy.
-  const vk::MemoryPropertyFlags direct =
-      Flag::eDeviceLocal | Flag::eHostVisible | Flag::eHostCoherent | Flag::eHostCached;
-  if (device.options.force_staging) {
-    Allocation made = device.allocate(capacity, usage, {Flag::eDeviceLocal});
+  if (device.maps_buffers) return device.allocate(capacity, usage, {kDirectMemory, Flag::eDeviceLocal});
+  const std::uint64_t size = std::min(MemoryPool::size_class(capacity), std::max(capacity, device.info.max_allocation));
+  if (auto pooled = device.pool.take(size)) return *std::move(pooled);
+  const auto make = [&] {
+    Allocation made = device.allocate(size, usage, {Flag::eDeviceLocal});
     made.mapped = nullptr;
     return made;
+  };
+  try {
+    return make();
+  } catch (const vk::OutOfDeviceMemoryError&) {
+    if (!device.pool.clear()) throw;
   }
-  return device.allocate(capacity, usage, {direct, Flag::eDeviceLocal});
+  return make();
 }
 
 Expected<void> make_staging(Device::State& device) {
@@ -55,6 +59,8 @@ Expected<void> transfer(const Buffer::State& buffer, std::span<Byte> values, std
   QUORUM_CHECK_LE(offset, buffer.size);
   QUORUM_CHECK_LE(values.size(), buffer.size - offset);
   if (values.empty()) return {};
+  auto& counter = kUpload ? buffer.device->work.uploaded_bytes : buffer.device->work.downloaded_bytes;
+  counter += values.size();
   if (buffer.allocation.mapped != nullptr) {
     copy(values, buffer.allocation.mapped + offset);
     return {};

@@ -9,10 +9,16 @@
 
 #include "engine/core/check.h"
 #include "host/descriptors.h"
+#include "host/staging.h"
 #include "host/state.h"
 #include "host/timestamps.h"
 
 namespace quorum {
+namespace {
+
+constexpr std::string_view kTransfers = "transfers";  // the region of copies between host and device
+
+}  // namespace
 
 struct Commands::State {
   Device opened;
@@ -23,6 +29,10 @@ struct Commands::State {
   Timestamps timestamps;
   std::vector<RegionTiming> timings;
   double last_submission_seconds = 0.0;
+  double carried_seconds = 0.0;  ///< of submissions before the next one
+  Staging uploads;
+  Staging downloads;
+  std::vector<Buffer> used;                ///< by what is recorded
   std::string region = "other";            ///< of what is recorded next
   std::optional<std::string> open_region;  ///< of what was recorded last
   bool recording = false;
@@ -34,21 +44,26 @@ struct Commands::State {
         options(with),
         recorder(device->make_recorder()),
         descriptors(*device),
-        timestamps(*device) {}
+        timestamps(*device),
+        uploads(*device),
+        downloads(*device) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() { device->settle(); }
 
-  void start();
+  void start(std::string_view in_region);
   void end();
   void clear();
-  void record(const std::function<void(const vk::raii::CommandBuffer&)>& function);
+  Expected<void> submit();
+  void record(std::string_view in_region, const std::function<void(const vk::raii::CommandBuffer&)>& function);
+  Expected<void> upload(const Buffer& to, std::span<const std::byte> bytes, std::uint64_t offset);
+  Expected<void> download(const Buffer& from, std::span<std::byte> bytes);
   template <typename Function>
   auto keep(const Function& function) -> std::invoke_result_t<Function>::value_type;
 };
 
 // Before a command: starts recording and the region, as far as they are not.
-void Commands::State::start() {
+void Commands::State::start(std::string_view in_region) {
   if (!recording) {
     device->settle();
     recorder.pool.reset();
@@ -57,13 +72,13 @@ void Commands::State::start() {
     recording = true;
     timestamps.begin(recorder.commands);
   }
-  if (open_region == region) return;
-  timestamps.start_region(recorder.commands, region);
+  if (open_region == in_region || timestamps.full()) return;
+  timestamps.start_region(recorder.commands, in_region);
   if (device->instance.debug_utils) {
     if (open_region) recorder.commands.endDebugUtilsLabelEXT();
-    recorder.commands.beginDebugUtilsLabelEXT({.pLabelName = region.c_str()});
+    recorder.commands.beginDebugUtilsLabelEXT({.pLabelName = std::string(in_region).c_str()});
   }
-  open_region = region;
+  open_region = in_region;
 }
 
 void Commands::State::end() {
@@ -76,6 +91,7 @@ void Commands::State::clear() {
   recording = false;
   open_region.reset();
   failed.reset();
+  uploads.clear();
 }
 
 // What an Expected of function holds; its failure is kept, and after that it is not called.
@@ -89,14 +105,85 @@ auto Commands::State::keep(const Function& function) -> std::invoke_result_t<Fun
   return Value();
 }
 
-void Commands::State::record(const std::function<void(const vk::raii::CommandBuffer&)>& function) {
+void Commands::State::record(std::string_view in_region,
+                             const std::function<void(const vk::raii::CommandBuffer&)>& function) {
   keep([&] {
-    return guarded("recording " + region, [&] {
-      start();
+    return guarded(fmt::format("recording {}", in_region), [&] {
+      start(in_region);
       function(recorder.commands);
       publish_writes(recorder.commands);
     });
   });
+}
+
+// Runs what was recorded, and lets go of the buffers that it used.
+Expected<void> Commands::State::submit() {
+  last_submission_seconds = std::exchange(carried_seconds, 0.0);
+  const std::vector<Buffer> until_done = std::exchange(used, {});
+  if (failed) {
+    Error error = *std::move(failed);
+    clear();
+    return std::unexpected(std::move(error));
+  }
+  if (!recording) return {};
+  const std::string doing = "running " + *open_region;
+  if (auto ended = guarded(doing, [&] { end(); }); !ended) {
+    clear();
+    return ended;
+  }
+  clear();
+  const auto began = std::chrono::steady_clock::now();
+  QUORUM_TRY(device->submit(recorder, options.timeout, doing));
+  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - began;
+  return guarded(doing, [&] {
+    const double measured = timestamps.collect(timings);
+    last_submission_seconds += device->timestamp_bits > 0 ? measured : waited.count();
+  });
+}
+
+// Fills a part of a buffer at its place among the commands, through the staging buffer; submits when that is full.
+Expected<void> Commands::State::upload(const Buffer& to, std::span<const std::byte> bytes, std::uint64_t offset) {
+  QUORUM_CHECK_LE(offset, to.size());
+  QUORUM_CHECK_LE(bytes.size(), to.size() - offset);
+  device->work.uploaded_bytes += bytes.size();
+  while (!bytes.empty()) {
+    QUORUM_TRY(uploads.open());
+    if (uploads.room() == 0) {
+      QUORUM_TRY(submit());
+      carried_seconds = last_submission_seconds;
+    }
+    const auto piece = bytes.first(std::min<std::uint64_t>(bytes.size(), uploads.room()));
+    if (!recording) device->settle();  // before what it may still read is overwritten
+    const std::uint64_t from = uploads.put(piece);
+    record(kTransfers, [&](const vk::raii::CommandBuffer& commands) {
+      commands.copyBuffer(uploads.buffer(), *to.state().allocation.buffer,
+                          vk::BufferCopy{.srcOffset = from, .dstOffset = offset, .size = piece.size()});
+    });
+    if (failed) return std::unexpected(*failed);
+    used.push_back(to);
+    bytes = bytes.subspan(piece.size());
+    offset += piece.size();
+  }
+  return {};
+}
+
+// Runs what was recorded, and then a copy to the host; the first piece of it in the same submission.
+Expected<void> Commands::State::download(const Buffer& from, std::span<std::byte> bytes) {
+  QUORUM_CHECK_LE(bytes.size(), from.size());
+  device->work.downloaded_bytes += bytes.size();
+  for (std::uint64_t offset = 0; !bytes.empty();) {
+    keep([&] { return downloads.open(); });
+    const auto piece = bytes.first(std::min(bytes.size(), kStagingBytes));
+    record(kTransfers, [&](const vk::raii::CommandBuffer& commands) {
+      commands.copyBuffer(*from.state().allocation.buffer, downloads.buffer(),
+                          vk::BufferCopy{.srcOffset = offset, .size = piece.size()});
+    });
+    QUORUM_TRY(submit());
+    downloads.get(piece);
+    bytes = bytes.subspan(piece.size());
+    offset += piece.size();
+  }
+  return submit();
 }
 
 namespace {
@@ -144,19 +231,31 @@ Buffer Commands::allocate(std::uint64_t size_bytes, BufferUse use) {
 
 Buffer Commands::allocate_zeros(std::uint64_t size_bytes, BufferUse use) {
   Buffer zeros = allocate(size_bytes, use);
-  state_->keep([&] { return zeros.fill_zero(); });
+  if (state_->failed) return zeros;
+  if (zeros.state().allocation.mapped != nullptr)
+    state_->keep([&] { return zeros.fill_zero(); });
+  else
+    fill_zero(zeros);
   return zeros;
 }
 
 Buffer Commands::upload_bytes(std::span<const std::byte> bytes, BufferUse use) {
-  return state_->keep([&] { return Buffer::of(device(), bytes, use); });
+  Buffer made = allocate(bytes.size(), use);
+  upload_bytes(bytes, made, 0);
+  return made;
 }
 
 void Commands::upload_bytes(std::span<const std::byte> bytes, Buffer& to, std::uint64_t offset_bytes) {
-  state_->keep([&] { return to.upload(bytes, offset_bytes); });
+  if (state_->failed) return;
+  state_->keep([&] {
+    return to.state().allocation.mapped != nullptr ? to.upload(bytes, offset_bytes)
+                                                   : state_->upload(to, bytes, offset_bytes);
+  });
 }
 
 Expected<void> Commands::download_bytes(const Buffer& from, std::span<std::byte> bytes) {
+  if (state_->failed) return submit();
+  if (from.state().allocation.mapped == nullptr) return state_->download(from, bytes);
   QUORUM_TRY(submit());
   return from.download(bytes);
 }
@@ -175,7 +274,8 @@ void Commands::record(const Kernel& kernel, const Threads& threads, std::span<co
   QUORUM_CHECK_GE(threads.z, 0);
   if (threads.x == 0 || threads.y == 0 || threads.z == 0) return;
   const auto [x, y, z] = state_->keep([&] { return count_groups(built, threads); });
-  state_->record([&](const vk::raii::CommandBuffer& commands) {
+  for (const BufferView& view : buffers) state_->used.push_back(*view.buffer);
+  state_->record(state_->region, [&](const vk::raii::CommandBuffer& commands) {
     const vk::DescriptorSet set = state_->descriptors.bind(built, buffers);
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *built.pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *built.pipeline_layout, 0, set, {});
@@ -184,6 +284,7 @@ void Commands::record(const Kernel& kernel, const Threads& threads, std::span<co
                                         {static_cast<std::uint32_t>(params.size()), params.data()});
     }
     commands.dispatch(x, y, z);
+    ++state_->device->work.dispatches;
   });
 }
 
@@ -194,46 +295,27 @@ void Commands::fill_zero(const BufferView& view) {
   QUORUM_CHECK_EQ(view.size % 4 == 0 || view.offset + view.size == view.buffer->size(), true);
   if (view.size == 0) return;
   const BoundRange range = range_of(view);
-  state_->record([&](const vk::raii::CommandBuffer& commands) {
+  state_->used.push_back(*view.buffer);
+  state_->record(state_->region, [&](const vk::raii::CommandBuffer& commands) {
     commands.fillBuffer(*view.buffer->state().allocation.buffer, range.offset, range.size, 0);
   });
 }
 
-void Commands::copy(const Buffer& from, const Buffer& to) {
+void Commands::copy(const Buffer& from, const Buffer& to, std::uint64_t offset_bytes) {
   if (state_->failed) return;
   QUORUM_CHECK_EQ(from.state().device == state_->device, true);
   QUORUM_CHECK_EQ(to.state().device == state_->device, true);
-  QUORUM_CHECK_EQ(from.size(), to.size());
+  QUORUM_CHECK_LE(offset_bytes, to.size());
+  QUORUM_CHECK_LE(from.size(), to.size() - offset_bytes);
   if (from.size() == 0) return;
-  state_->record([&](const vk::raii::CommandBuffer& commands) {
+  state_->used.insert(state_->used.end(), {from, to});
+  state_->record(kTransfers, [&](const vk::raii::CommandBuffer& commands) {
     commands.copyBuffer(*from.state().allocation.buffer, *to.state().allocation.buffer,
-                        vk::BufferCopy{.size = from.size()});
+                        vk::BufferCopy{.dstOffset = offset_bytes, .size = from.size()});
   });
 }
 
-Expected<void> Commands::submit() {
-  State& state = *state_;
-  state.last_submission_seconds = 0.0;
-  if (state.failed) {
-    Error error = *std::move(state.failed);
-    state.clear();
-    return std::unexpected(std::move(error));
-  }
-  if (!state.recording) return {};
-  const std::string doing = "running " + *state.open_region;
-  if (auto ended = guarded(doing, [&] { state.end(); }); !ended) {
-    state.clear();
-    return ended;
-  }
-  state.clear();
-  const auto began = std::chrono::steady_clock::now();
-  QUORUM_TRY(state.device->submit(state.recorder, state.options.timeout, doing));
-  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - began;
-  return guarded(doing, [&] {
-    const double measured = state.timestamps.collect(state.timings);
-    state.last_submission_seconds = state.device->timestamp_bits > 0 ? measured : waited.count();
-  });
-}
+Expected<void> Commands::submit() { return state_->submit(); }
 
 const std::vector<RegionTiming>& Commands::timings() const { return state_->timings; }
 double Commands::last_submission_seconds() const { return state_->last_submission_seconds; }

@@ -60,7 +60,8 @@ class Commands {
   /// A kernel of shaders/, by name. Fails as Kernel::create does.
   Kernel kernel(std::string_view name, const std::vector<SpecConstant>& constants = {});
 
-  // Buffers, made and filled at once, before what is recorded runs. Fail as Buffer::create and Buffer::upload do.
+  // Buffers. They are filled before what is recorded next runs, and must not be used by what was recorded before. Fail
+  // as Buffer::create and Buffer::upload do.
 
   /// A buffer with undefined content.
   Buffer allocate(std::uint64_t size_bytes, BufferUse use = BufferUse::kWhole);
@@ -82,7 +83,7 @@ class Commands {
 
   /// Runs the kernel with at least these threads: the counts are rounded up to whole work groups, so the kernel must
   /// ignore threads beyond them. No thread, no dispatch. params: the push constants, of exactly the size that the
-  /// kernel declares. buffers: one per binding, in order; they and the kernel must live until submit returns. A wrong
+  /// kernel declares. buffers: one per binding, in order. The kernel must live until submit returns. A wrong
   /// size or count of these stops the program; more work groups than the device allows make submit fail (kDevice).
   template <typename Params>
   void dispatch(const Kernel& kernel, const Threads& threads, const Params& params,
@@ -98,15 +99,15 @@ class Commands {
   /// Fills a view with zero bytes; its offset and size are multiples of 4, or it is a whole buffer.
   void fill_zero(const BufferView& view);
 
-  /// Copies a whole buffer into another one of the same size.
-  void copy(const Buffer& from, const Buffer& to);
+  /// Copies a whole buffer into another one, from offset_bytes on; it must fit.
+  void copy(const Buffer& from, const Buffer& to, std::uint64_t offset_bytes = 0);
 
   /// Runs what was recorded and waits for it; then the object is ready to record anew. Fails with the first failure
   /// since the last submission; (kDevice) if the device is lost, fails, or takes longer than the timeout; (kMemory) if
   /// memory runs out.
   Expected<void> submit();
 
-  /// Submits, and fills values from the start of a buffer. Fails as submit and Buffer::download do.
+  /// Submits, and fills values from the start of a buffer. Fails as submit does.
   template <PlainValues Range>
   Expected<void> download(const Buffer& from, Range&& values) {
     return download_bytes(from, std::as_writable_bytes(std::span(values)));
@@ -115,7 +116,8 @@ class Commands {
   /// Seconds per region name over all submissions, in order of first use. Empty on a queue without timestamps.
   [[nodiscard]] const std::vector<RegionTiming>& timings() const;
 
-  /// Seconds that the device took for the last submission; from submit to its end on a queue without timestamps.
+  /// Seconds that the device took for the last submission, and for those that uploads made before it; from submit to
+  /// its end on a queue without timestamps.
   [[nodiscard]] double last_submission_seconds() const;
 
  private:

@@ -20,6 +20,7 @@ constexpr std::int64_t kLanesGroupSize = 16;     // invocations, each with an it
 constexpr std::int64_t kMaxPlanes = 1024;
 constexpr std::int64_t kLeastWindows = 1LL << 14;
 constexpr std::int64_t kStartWindows = 1LL << 18;
+constexpr std::int64_t kMostWindows = 1LL << 34;
 
 SweepForm form_for(const DeviceInfo& device) {
   return device.kind == DeviceKind::kSoftware && device.has_float64 ? SweepForm::kLanes : SweepForm::kGroups;
@@ -101,9 +102,11 @@ DepthStage::DepthStage(Commands& commands, std::optional<SweepForm> form)
       info_(&commands.device().info()),
       form_(form.value_or(form_for(*info_))),
       vote_depth_(commands.kernel(form_ == SweepForm::kLanes ? "vote_depth_lanes" : "vote_depth")),
+      reference_windows_(commands, "reference_windows"),
+      images_(commands),
       planes_(commands),
       planes_in_lanes_(commands),
-      batch_size_(kStartWindows, kLeastWindows, ncc_values(*info_)) {}
+      batch_size_(kStartWindows, kLeastWindows, kMostWindows) {}
 
 SweepForm DepthStage::form_of(const SweepTask& task) const {
   if (task.options.is_along_axes()) return SweepForm::kGroups;
@@ -138,22 +141,34 @@ void DepthStage::prepare_kernels(const SweepTask& task) {
            .second = make_pass(form, options, second_block(form))};
 }
 
-DepthStage::Inputs DepthStage::upload(const SweepTask& task) const {
+DepthStage::Inputs DepthStage::make_inputs(const SweepTask& task) {
   const bool lanes = sweep_->form == SweepForm::kLanes;
   const int window = task.options.window;
   const BufferUse use = lanes ? BufferUse::kInParts : BufferUse::kWhole;  // as texels, or as words
-  std::vector<Buffer> neighbors;
+  Inputs inputs;
+  inputs.ncc = commands_->allocate(static_cast<std::uint64_t>(ncc_values(*info_)) * sizeof(float));
+  inputs.reference =
+      lanes ? commands_->upload(make_reference_texels(*task.reference, window), use) : images_.of(task.reference);
   for (const auto& image : task.neighbors)
-    neighbors.push_back(lanes ? commands_->upload(make_quads(*image), use) : commands_->upload(image->pixels, use));
-  return {.reference = lanes ? commands_->upload(make_reference_texels(*task.reference, window), use)
-                             : commands_->upload(task.reference->pixels, use),
-          .windows = commands_->upload(in_whole_blocks(make_reference_windows(*task.reference, window)).values, use),
-          .neighbors = std::move(neighbors),
-          .ncc = commands_->allocate(static_cast<std::uint64_t>(ncc_values(*info_)) * sizeof(float))};
+    inputs.neighbors.push_back(lanes ? commands_->upload(make_quads(*image), use) : images_.of(image));
+  if (lanes) {
+    inputs.windows = commands_->upload(in_whole_blocks(make_reference_windows(*task.reference, window)).values, use);
+  } else {
+    const ReferenceWindowsParams params{.width = task.reference->width,
+                                        .height = task.reference->height,
+                                        .columns = whole_blocks(task.reference->width),
+                                        .rows = whole_blocks(task.reference->height)};
+    inputs.windows = commands_->allocate(sizeof(ReferenceWindow) * static_cast<std::uint64_t>(params.columns) *
+                                         static_cast<std::uint64_t>(params.rows));
+    commands_->region("reference_windows");
+    commands_->dispatch(reference_windows_.at(window), {params.columns, params.rows}, params,
+                        {inputs.reference, inputs.windows});
+  }
+  return inputs;
 }
 
-Expected<void> DepthStage::run_batch(const SweepTask& task, const Inputs& inputs, const Pass& pass,
-                                     const SweepBatch& batch, const Band& band) {
+void DepthStage::record_batch(const SweepTask& task, const Inputs& inputs, const Pass& pass, const SweepBatch& batch,
+                              const Band& band) {
   const std::int64_t windows_of_item = pass.block.pixels();
   const auto item_count = static_cast<std::int64_t>(batch.items.size());
   const Buffer blocks = commands_->upload(batch.blocks);
@@ -167,55 +182,79 @@ Expected<void> DepthStage::run_batch(const SweepTask& task, const Inputs& inputs
   commands_->dispatch(vote_depth_, {static_cast<std::int64_t>(batch.blocks.size()) * windows_of_item / 4},
                       make_vote_params(task, pass.block, batch, band.height),
                       {blocks, items, band.ranges, inputs.ncc, band.votes});
-  return commands_->submit();
+}
+
+DepthStage::Band DepthStage::make_band(const Grid<PlaneRange>& ranges) const {
+  const std::vector<PixelVote> none(ranges.values.size(), kNoVote);
+  return {ranges.height, commands_->upload(ranges.values), commands_->upload(none)};
 }
 
 Expected<void> DepthStage::run_band(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges,
-                                    const Pass& pass, int stride, int row_begin, std::span<PixelVote> votes) {
-  const Band band{ranges.height, commands_->upload(ranges.values), commands_->upload(votes)};
+                                    const Pass& pass, int stride, int row_begin, const Band& band, Pacer& pacer) {
   const std::int64_t item_windows = std::int64_t{pass.block.pixels()} * task.neighbor_count();
   const std::int64_t max_items = kMaxGroups * (sweep_->form == SweepForm::kLanes ? kLanesGroupSize : 1);
   SweepBatches batches(ranges, task.planes.inverse_depth, pass.block, stride);
   while (true) {
-    const std::int64_t most = std::clamp<std::int64_t>(batch_size_.items() / item_windows, 1, max_items);
-    SweepBatch batch = batches.next(most, kMaxPlanes);
-    if (batch.items.empty()) break;
+    const std::int64_t windows = std::min(pacer.room(), ncc_values(*info_));
+    SweepBatch batch = batches.next(std::clamp<std::int64_t>(windows / item_windows, 1, max_items), kMaxPlanes);
+    if (batch.items.empty()) return {};
     for (SweepItem& item : batch.items) item.y += row_begin;  // items lie in the view, blocks in the band
-    QUORUM_TRY(run_batch(task, inputs, pass, batch, band));
-    batch_size_.measured(static_cast<std::int64_t>(batch.items.size()) * item_windows,
-                         commands_->last_submission_seconds());
+    record_batch(task, inputs, pass, batch, band);
+    QUORUM_TRY(pacer.recorded(static_cast<std::int64_t>(batch.items.size()) * item_windows));
   }
-  return commands_->download(band.votes, votes);
 }
 
 Expected<Grid<PixelVote>> DepthStage::run_pass(const SweepTask& task, const Inputs& inputs,
                                                const Grid<PlaneRange>& ranges, const Pass& pass, int stride) {
   Grid<PixelVote> votes(ranges.width, ranges.height, kNoVote);
+  Pacer pacer(*commands_, batch_size_);
   const int rows = rows_of_band(ranges.width, *info_);
   for (int begin = 0; begin < ranges.height; begin += rows) {
-    const Grid<PlaneRange> band = rows_of(ranges, begin, std::min(begin + rows, ranges.height));
-    const std::span<PixelVote> band_votes(votes.row(begin), band.values.size());
-    QUORUM_TRY(run_band(task, inputs, band, pass, stride, begin, band_votes));
+    const Grid<PlaneRange> part = rows_of(ranges, begin, std::min(begin + rows, ranges.height));
+    const Band band = make_band(part);
+    QUORUM_TRY(run_band(task, inputs, part, pass, stride, begin, band, pacer));
+    QUORUM_TRY(commands_->download(band.votes, std::span<PixelVote>(votes.row(begin), part.values.size())));
+    pacer.submitted();
   }
   return votes;
 }
 
-Expected<Grid<PixelVote>> DepthStage::sweep(const SweepTask& task) {
-  prepare_kernels(task);
-  const Inputs inputs = upload(task);
+Expected<DepthMap> DepthStage::sweep_twice(const SweepTask& task, const Inputs& inputs) {
   auto votes = run_pass(task, inputs, task.ranges, sweep_->first, task.planes.refinement);
-  const bool slanted = task.options.is_slanted();
-  if (votes && task.planes.refinement > 1 && !slanted)
+  if (votes && task.planes.refinement > 1)
     votes = run_pass(task, inputs, refine_ranges(*votes, task.planes), sweep_->second, 1);
-  return votes;
+  if (!votes) return std::unexpected(votes.error());
+  return depth_map_from_votes(*votes, task.planes);
+}
+
+Expected<DepthMap> DepthStage::sweep_slanted(const SweepTask& task, const Inputs& inputs) {
+  if (form_ == SweepForm::kLanes && planes_in_lanes_.fits(task)) {
+    QUORUM_ASSIGN(const auto votes, run_pass(task, inputs, task.ranges, sweep_->first, task.planes.refinement));
+    QUORUM_ASSIGN(const auto planes, planes_in_lanes_.run(task, votes));
+    return depth_map_from_planes(planes, task);
+  }
+  SweptView swept;
+  swept.reference = images_.of(task.reference);
+  for (const auto& image : task.neighbors) swept.neighbors.push_back(images_.of(image));
+  Band band = make_band(task.ranges);
+  Pacer pacer(*commands_, batch_size_);
+  QUORUM_TRY(run_band(task, inputs, task.ranges, sweep_->first, task.planes.refinement, 0, band, pacer));
+  swept.ranges = std::move(band.ranges);
+  swept.votes = std::move(band.votes);
+  QUORUM_ASSIGN(const auto planes, planes_.run(task, swept));
+  return depth_map_from_planes(planes, task);
+}
+
+Expected<DepthMap> DepthStage::sweep(const SweepTask& task) {
+  prepare_kernels(task);
+  const Inputs inputs = make_inputs(task);
+  return task.options.is_slanted() ? sweep_slanted(task, inputs) : sweep_twice(task, inputs);
 }
 
 Expected<DepthMap> DepthStage::run(const SweepTask& task) {
-  QUORUM_ASSIGN(const auto votes, sweep(task));
-  if (!task.options.is_slanted()) return depth_map_from_votes(votes, task.planes);
-  const bool lanes = form_ == SweepForm::kLanes && planes_in_lanes_.fits(task);
-  QUORUM_ASSIGN(const auto planes, lanes ? planes_in_lanes_.run(task, votes) : planes_.run(task, votes));
-  return depth_map_from_planes(planes, task);
+  auto map = sweep(task);
+  if (!map) images_.clear();
+  return map;
 }
 
 }  // namespace quorum

@@ -15,7 +15,9 @@
 #include "host/kernel.h"
 #include "host/plane_lanes_stage.h"
 #include "host/plane_stage.h"
+#include "host/resident_images.h"
 #include "host/sweep_batch.h"
+#include "host/window_kernels.h"
 
 namespace quorum {
 
@@ -63,20 +65,27 @@ class DepthStage {
   [[nodiscard]] SweepForm form_of(const SweepTask& task) const;
   void prepare_kernels(const SweepTask& task);
   [[nodiscard]] Pass make_pass(SweepForm form, const SweepOptions& options, BlockSize block) const;
-  [[nodiscard]] Inputs upload(const SweepTask& task) const;
-  Expected<Grid<PixelVote>> sweep(const SweepTask& task);
+  [[nodiscard]] Inputs make_inputs(const SweepTask& task);
+  Expected<DepthMap> sweep(const SweepTask& task);
+  /// Two passes on planes that face the camera.
+  Expected<DepthMap> sweep_twice(const SweepTask& task, const Inputs& inputs);
+  /// One pass, and tilted planes after it.
+  Expected<DepthMap> sweep_slanted(const SweepTask& task, const Inputs& inputs);
   Expected<Grid<PixelVote>> run_pass(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges,
                                      const Pass& pass, int stride);
-  /// votes: of the band, on entry and after it.
+  [[nodiscard]] Band make_band(const Grid<PlaneRange>& ranges) const;
+  /// Records and submits all but the last batches of a band, which begins with this row of the view.
   Expected<void> run_band(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges, const Pass& pass,
-                          int stride, int row_begin, std::span<PixelVote> votes);
-  Expected<void> run_batch(const SweepTask& task, const Inputs& inputs, const Pass& pass, const SweepBatch& batch,
-                           const Band& band);
+                          int stride, int row_begin, const Band& band, Pacer& pacer);
+  void record_batch(const SweepTask& task, const Inputs& inputs, const Pass& pass, const SweepBatch& batch,
+                    const Band& band);
 
   Commands* commands_;
   const DeviceInfo* info_;
   SweepForm form_;
   Kernel vote_depth_;
+  WindowKernels reference_windows_;
+  ResidentImages images_;
   PlaneStage planes_;
   PlaneLanesStage planes_in_lanes_;
   std::map<std::tuple<SweepForm, int, WindowModel>, Sweep> sweeps_;  // that were made so far

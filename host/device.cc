@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -56,6 +57,12 @@ std::pair<std::uint32_t, vk::MemoryPropertyFlags> find_memory(const vk::Physical
   throw vk::OutOfDeviceMemoryError("no fitting kind of memory");
 }
 
+bool has_memory(const vk::PhysicalDeviceMemoryProperties& memory, vk::MemoryPropertyFlags flags) {
+  for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+    if ((memory.memoryTypes[i].propertyFlags & flags) == flags) return true;
+  return false;
+}
+
 }  // namespace
 
 Expected<Device> Device::open(const DeviceInfo& info, const DeviceOptions& options) {
@@ -78,6 +85,10 @@ Expected<Device> Device::open(const DeviceInfo& info, const DeviceOptions& optio
       opened->limits.maxStorageBufferRange = static_cast<std::uint32_t>(options.max_storage_buffer_range);
     }
     opened->memory = opened->physical.getMemoryProperties();
+    opened->maps_buffers = !options.force_staging && has_memory(opened->memory, kDirectMemory);
+    constexpr std::uint64_t kMostPooled = 1ULL << 30;
+    constexpr std::uint64_t kShareOfHeap = 8;
+    opened->pool.set_limit(std::min(opened->info.largest_device_heap / kShareOfHeap, kMostPooled));
     if (options.validation) opened->messenger = make_messenger(opened->instance, opened->log);
     open_queue(*opened);
     opened->transfer = opened->make_recorder();
@@ -92,6 +103,13 @@ Expected<Device> Device::open(const DeviceInfo& info, const DeviceOptions& optio
 
 const DeviceInfo& Device::info() const { return state_->info; }
 
+bool Device::maps_buffers() const { return state_->maps_buffers; }
+
+DeviceWork Device::work() const {
+  const WorkCounters& work = state_->work;
+  return {work.uploaded_bytes, work.downloaded_bytes, work.submissions, work.dispatches, work.allocations};
+}
+
 std::vector<std::string> Device::take_validation_messages() const {
   const std::scoped_lock lock(state_->log.mutex);
   return std::exchange(state_->log.messages, {});
@@ -105,7 +123,9 @@ Allocation Device::State::allocate(std::uint64_t size, vk::BufferUsageFlags usag
   const vk::MemoryRequirements needs = made.buffer.getMemoryRequirements();
   const auto [type, flags] = find_memory(memory, needs.memoryTypeBits, wishes);
   made.memory = {device, vk::MemoryAllocateInfo{.allocationSize = needs.size, .memoryTypeIndex = type}};
+  ++work.allocations;
   made.buffer.bindMemory(*made.memory, 0);
+  made.bytes = size;
   const vk::MemoryPropertyFlags visible = Flag::eHostVisible | Flag::eHostCoherent;
   if ((flags & visible) == visible) made.mapped = static_cast<std::byte*>(made.memory.mapMemory(0, VK_WHOLE_SIZE));
   return made;
@@ -130,6 +150,7 @@ Expected<void> Device::State::submit(const Recorder& recorder, std::chrono::nano
       device.resetFences(*recorder.fence);
       const vk::SubmitInfo submission{.commandBufferCount = 1, .pCommandBuffers = &*recorder.commands};
       queue.submit(submission, *recorder.fence);
+      ++work.submissions;
     }
     const auto limit = static_cast<std::uint64_t>(timeout.count());
     if (device.waitForFences(*recorder.fence, VK_TRUE, limit) == vk::Result::eSuccess) return {};

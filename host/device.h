@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
+#include "engine/pipeline/device_work.h"
 #include "host/device_list.h"
 
 namespace quorum {
@@ -24,6 +25,12 @@ class Device {
   static Expected<Device> open(const DeviceInfo& info, const DeviceOptions& options = {});
 
   [[nodiscard]] const DeviceInfo& info() const;
+
+  /// True where the host reads and writes buffers in place, so that nothing is gained by keeping them on the device.
+  [[nodiscard]] bool maps_buffers() const;
+
+  /// What was asked of it since it was opened.
+  [[nodiscard]] DeviceWork work() const;
 
   /// Warnings and errors of the validation layer since the last call, and forgets them. Empty without validation.
   [[nodiscard]] std::vector<std::string> take_validation_messages() const;

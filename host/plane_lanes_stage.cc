@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/depth/outside_planes.h"
+#include "engine/depth/first_planes.h"
 #include "engine/depth/support_windows.h"
 #include "engine/depth/vote_depth.h"
 #include "host/sweep_texels.h"
@@ -27,11 +27,11 @@ std::uint64_t all_quads(const SweepTask& task) {
 
 std::vector<PlaneNeighbor> make_neighbors(const SweepTask& task) {
   std::vector<PlaneNeighbor> neighbors;
-  std::uint64_t first_quad = quad_count(*task.reference);
+  std::uint64_t first_texel = quad_count(*task.reference);
   for (std::size_t i = 0; i < task.neighbors.size(); ++i) {
     const PaddedImage& image = *task.neighbors[i];
-    neighbors.push_back({task.warps[i], image.width, image.height, static_cast<int>(first_quad), 0});
-    first_quad += quad_count(image);
+    neighbors.push_back({task.warps[i], image.width, image.height, static_cast<int>(first_texel), 0});
+    first_texel += quad_count(image);
   }
   return neighbors;
 }

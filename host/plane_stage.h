@@ -1,45 +1,56 @@
-// Tilted planes on a Vulkan device: refine_planes and score_planes in turn, a move at a time.
+// Tilted planes on a GPU: first_planes and support_windows, then refine_planes, a round of moves at a time. The form
+// for software Vulkan: host/plane_lanes_stage.h.
 #pragma once
+
+#include <vector>
 
 #include "engine/depth/plane_moves.h"
 #include "engine/depth/sweep_task.h"
+#include "host/batch_size.h"
 #include "host/buffer.h"
 #include "host/commands.h"
 #include "host/kernel.h"
+#include "host/pacer.h"
 #include "host/window_kernels.h"
 
 namespace quorum {
 
+/// What the sweep left on the device.
+struct SweptView {
+  Buffer reference;               ///< pixels of its padded image
+  std::vector<Buffer> neighbors;  ///< likewise
+  Buffer ranges;                  ///< PlaneRange per pixel, those of the task
+  Buffer votes;                   ///< PixelVote per pixel, of the first pass
+};
+
 class PlaneStage {
  public:
   /// The commands keep a failure to make kernels.
-  explicit PlaneStage(Commands& commands)
-      : commands_(&commands),
-        refine_planes_(commands.kernel("refine_planes")),
-        score_planes_(commands, "score_planes") {}
+  explicit PlaneStage(Commands& commands);
 
-  /// The best plane per pixel, from the votes of the sweep's first pass. Fails (kDevice, kMemory) if the device does.
-  Expected<Grid<PixelPlane>> run(const SweepTask& task, const Grid<PixelVote>& first_pass);
+  /// The best plane per pixel, after the sweep's first pass. Fails (kDevice, kMemory) if the device does.
+  Expected<Grid<PixelPlane>> run(const SweepTask& task, const SweptView& swept);
 
  private:
-  /// Device copies of a task's inputs, and the planes.
+  /// A task's inputs, and the planes of the last round and of this one.
   struct Buffers {
-    Buffer reference;
+    Buffer images;
+    Buffer neighbors;
     Buffer windows;
-    std::vector<Buffer> neighbors;
     Buffer ranges;
     Buffer last;
     Buffer best;
-    Buffer trials;
   };
 
-  [[nodiscard]] Buffers upload(const SweepTask& task, const Grid<PixelVote>& first_pass) const;
-  void score(const SweepTask& task, const Buffers& buffers);
-  void refine(const SweepTask& task, const Buffers& buffers, const PlaneMove& move, int tried, bool ends_round);
+  [[nodiscard]] Buffers prepare(const SweepTask& task, const SweptView& swept);
+  Expected<void> run_round(const SweepTask& task, Buffers& buffers, const std::vector<PlaneMove>& moves, bool is_first,
+                           Pacer& pacer);
 
   Commands* commands_;
-  Kernel refine_planes_;
-  WindowKernels score_planes_;
+  Kernel first_planes_;
+  WindowKernels support_windows_;
+  WindowKernels refine_planes_;
+  BatchSize batch_size_;  ///< windows per submission
 };
 
 }  // namespace quorum

@@ -1,6 +1,7 @@
 // What devices, buffers and kernels hold of Vulkan. For the files of this layer alone; stages need none of it.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -9,12 +10,15 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "host/allocation.h"
 #include "host/buffer.h"
 #include "host/device.h"
 #include "host/instance.h"
 #include "host/kernel.h"
+#include "host/memory_pool.h"
 #include "host/vulkan.h"
 
 namespace quorum {
@@ -25,18 +29,20 @@ struct MessageLog {
   std::vector<std::string> messages;
 };
 
-/// A Vulkan buffer with its memory, mapped if the host can see it.
-struct Allocation {
-  vk::raii::DeviceMemory memory = nullptr;
-  vk::raii::Buffer buffer = nullptr;
-  std::byte* mapped = nullptr;
-};
-
 /// A pool with one command buffer, and the fence that says when it is done.
 struct Recorder {
   vk::raii::CommandPool pool = nullptr;
   vk::raii::CommandBuffer commands = nullptr;
   vk::raii::Fence fence = nullptr;
+};
+
+/// What was asked of a device, by any thread.
+struct WorkCounters {
+  std::atomic<std::uint64_t> uploaded_bytes = 0;
+  std::atomic<std::uint64_t> downloaded_bytes = 0;
+  std::atomic<std::uint64_t> submissions = 0;
+  std::atomic<std::uint64_t> dispatches = 0;
+  std::atomic<std::uint64_t> allocations = 0;
 };
 
 struct Device::State {
@@ -48,6 +54,7 @@ struct Device::State {
   vk::raii::PhysicalDevice physical = nullptr;
   vk::PhysicalDeviceLimits limits;
   vk::PhysicalDeviceMemoryProperties memory;
+  bool maps_buffers = false;  ///< the host reads and writes them where they are, without copies
   std::uint32_t queue_family = 0;
   std::uint32_t timestamp_bits = 0;  ///< valid bits of a timestamp; 0: the queue has none
   vk::raii::Device device = nullptr;
@@ -58,6 +65,9 @@ struct Device::State {
   std::mutex transfer_mutex;  ///< guards what follows
   Recorder transfer;
   Allocation staging;
+
+  mutable WorkCounters work;
+  MemoryPool pool;  ///< of buffers that are not mapped
 
   explicit State(Instance from) : instance(std::move(from)) {}
   State(const State&) = delete;
@@ -90,7 +100,10 @@ struct Buffer::State {
   std::uint64_t capacity = 0;  ///< bytes there are: size rounded up to whole words, at least one
   Allocation allocation;
 
-  ~State() { device->settle(); }
+  ~State() {
+    device->settle();
+    if (allocation.mapped == nullptr) device->pool.give(std::move(allocation));
+  }
 };
 
 struct Kernel::State {
@@ -108,6 +121,17 @@ struct Kernel::State {
 constexpr vk::DescriptorType descriptor_type(BufferKind kind) {
   return kind == BufferKind::kTexels ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
 }
+
+/// Memory in which buffers are used directly, where there is such: the host reads it fast, too (cached), as on
+/// integrated GPUs and software. Discrete GPUs have a window into their memory, but reading through it is slower than a
+/// copy.
+inline constexpr vk::MemoryPropertyFlags kDirectMemory =
+    vk::MemoryPropertyFlagBits::eDeviceLocal | vk::MemoryPropertyFlagBits::eHostVisible |
+    vk::MemoryPropertyFlagBits::eHostCoherent | vk::MemoryPropertyFlagBits::eHostCached;
+
+/// The size of the buffers through which values are copied where memory isn't mapped: a copy of this size takes far
+/// longer than its submission.
+inline constexpr std::uint64_t kStagingBytes = 16U << 20;
 
 /// How long a submission may take before it counts as failed. Drivers reset a GPU that hangs long before.
 inline constexpr std::chrono::seconds kPatience{120};

@@ -20,6 +20,8 @@ class Timestamps {
 
   /// Starts the timestamps of a command buffer.
   void begin(const vk::raii::CommandBuffer& commands);
+  /// Whether the command buffer has room for no other region.
+  [[nodiscard]] bool full() const { return regions_.size() == kMaxRegions; }
   /// Ends the region before, if any, and starts one. At most kMaxRegions in a command buffer.
   void start_region(const vk::raii::CommandBuffer& commands, std::string_view name);
   /// Ends the last region.

@@ -20,6 +20,7 @@ Expected<void> VulkanBackend::open(const Device& device) {
 
 Expected<void> VulkanBackend::renew() {
   lost_times_ = kernel_times();
+  lost_work_ = device_work();
   const DeviceInfo info = device().info();
   QUORUM_ASSIGN(const Device opened, Device::open(info));
   return open(opened);
@@ -61,6 +62,13 @@ std::vector<StageTime> VulkanBackend::kernel_times() const {
     time->seconds += timing.seconds;
   }
   return times;
+}
+
+DeviceWork VulkanBackend::device_work() const {
+  const DeviceWork work = device().work();
+  return {lost_work_.uploaded_bytes + work.uploaded_bytes, lost_work_.downloaded_bytes + work.downloaded_bytes,
+          lost_work_.submissions + work.submissions, lost_work_.dispatches + work.dispatches,
+          lost_work_.allocations + work.allocations};
 }
 
 }  // namespace quorum

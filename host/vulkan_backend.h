@@ -40,6 +40,7 @@ class VulkanBackend : public Backend {
   /// Opens the device once more, with default options.
   Expected<void> renew() override;
   [[nodiscard]] std::vector<StageTime> kernel_times() const override;
+  [[nodiscard]] DeviceWork device_work() const override;
   Expected<DeviceRates> measure_rates() override { return measure_device_rates(device()); }
 
  private:
@@ -62,7 +63,8 @@ class VulkanBackend : public Backend {
 
   std::optional<SweepForm> form_;
   std::unique_ptr<Stages> stages_;
-  std::vector<StageTime> lost_times_;  // of devices before
+  std::vector<StageTime> lost_times_;  // of devices before, as the work
+  DeviceWork lost_work_;
 };
 
 }  // namespace quorum

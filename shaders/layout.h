@@ -115,6 +115,13 @@ struct PlaneTrial {
 };
 QUORUM_SIZE(PlaneTrial, 20);
 
+// A plane beyond the bounds that faces the camera. inverse_depth 0 = none.
+struct OutsidePlane {
+  float inverse_depth;  // 1 / scene units
+  float correlation;    // of the small images
+};
+QUORUM_SIZE(OutsidePlane, 8);
+
 // Where the planes of one reference pixel may cross its ray, 1 / scene units; none if farthest > nearest.
 struct InverseDepthRange {
   float farthest;
@@ -187,12 +194,12 @@ struct PlaneTexel {
 };
 QUORUM_SIZE(PlaneTexel, 16);
 
-// and a neighbor. Moves are two texels, too.
+// and a neighbor, as refine_planes does. Moves are two texels, too.
 struct PlaneNeighbor {
   PlaneWarp warp;
-  int width;       // pixels
-  int height;      // pixels
-  int first_quad;  // its place among the quads of all images
+  int width;        // pixels
+  int height;       // pixels
+  int first_texel;  // its place in all images, the reference first; of a quad of texels for the lanes
   int unused;
 };
 QUORUM_SIZE(PlaneNeighbor, 64);
@@ -226,32 +233,50 @@ struct VoteParams {
 };
 QUORUM_SIZE(VoteParams, 40);
 
-// score_planes: adds the votes of one neighbor to the trials of a view.
-struct ScorePlanesParams {
-  PlaneWarp warp;
-  int width;            // reference view, pixels
-  int height;           // reference view, pixels
-  int neighbor_width;   // pixels
-  int neighbor_height;  // pixels
-  int left;             // neighbors that come after this one
+// reference_windows: what NCC needs of the windows of a view.
+struct ReferenceWindowsParams {
+  int width;    // pixels
+  int height;   // pixels
+  int columns;  // of the windows, in whole blocks of the sweep
+  int rows;
+};
+QUORUM_SIZE(ReferenceWindowsParams, 16);
+
+// support_windows: the part of each that looks like its center.
+struct SupportWindowsParams {
+  int width;      // pixels
+  int height;     // pixels
+  int tolerance;  // by which a pixel may differ from the center, 0..255
+};
+QUORUM_SIZE(SupportWindowsParams, 12);
+
+// first_planes: what the pixels begin with.
+struct FirstPlanesParams {
+  int width;             // pixels
+  int height;            // pixels
+  int outside_width;     // of the small image whose pixels have planes beyond the bounds; 0 = none
+  int outside_height;    // pixels
+  int outside_halvings;  // from the image to the small one
+  float limit;           // how far the depths that a plane is fitted to may lie apart, 1 / scene units
+};
+QUORUM_SIZE(FirstPlanesParams, 24);
+
+// refine_planes: moves of a round, in a run of rows.
+struct RefinePlanesParams {
+  int width;       // reference view, pixels
+  int height;      // reference view, pixels
+  int row_begin;   // the run
+  int row_end;     // one beyond it
+  int move_begin;  // of the round; 0 begins with the planes of the last one
+  int move_end;    // one beyond the last
+  int neighbor_count;
+  int is_first;  // 1: the planes of the last round are those to begin with, and no pixel has one yet
   int min_votes;
+  float max_tilt;  // largest slope, as a share of the inverse depth
   float threshold;
   float confidence_scale;  // 1 / (neighbor count * (1 - threshold))
 };
-QUORUM_SIZE(ScorePlanesParams, 80);
-
-// refine_planes: takes the trials that won, and makes the next ones.
-struct RefinePlanesParams {
-  PlaneMove move;
-  int width;
-  int height;
-  int tried;       // number of the move that made the trials
-  int ends_round;  // 1: no trial; the planes of this round become those of the last one
-  float max_tilt;  // largest slope, as a share of the inverse depth
-  float threshold;
-  float confidence_scale;
-};
-QUORUM_SIZE(RefinePlanesParams, 60);
+QUORUM_SIZE(RefinePlanesParams, 48);
 
 // refine_planes_lanes: a round of moves in a run of rows.
 struct RefinePlanesLanesParams {
@@ -263,7 +288,7 @@ struct RefinePlanesLanesParams {
   int first_pixel;    // of the bound parts of what is written
   int move_count;
   int neighbor_count;
-  int is_first;  // 1: the planes of the last round are those to begin with, and no pixel has one yet
+  int is_first;  // as in RefinePlanesParams, as what follows
   int min_votes;
   float max_tilt;
   float threshold;

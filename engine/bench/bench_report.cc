@@ -99,7 +99,7 @@ std::vector<Cost> bench_costs(const Scene& scene, const RunOptions& options, con
           kTiltedSampleOperations * samples, 4 * sum.images + 24 * sum.pixels,
           "70 operations a sample; 4 bytes a pixel of reference and neighbors, 24 of planes", device);
     else
-      add("score_planes", "pixel · view", sum.pixels, kernel("score_planes"), 0.0, 4 * sum.images + 24 * sum.pixels,
+      add("refine_planes", "pixel · view", sum.pixels, kernel("refine_planes"), 0.0, 4 * sum.images + 24 * sum.pixels,
           "4 bytes a pixel of reference and neighbors, 24 of planes; operations are not counted", device);
   } else {
     add("refine_depth", "pixel · depth · neighbor", sum.refine_windows, kernel("refine_depth"),
@@ -165,6 +165,7 @@ Expected<BenchReport> bench_run(Run& run, const std::string& name) {
   bench.wall_seconds = run.report.wall_seconds;
   bench.cpu_seconds = run.report.cpu_seconds;
   bench.stages = run.report.stages;
+  bench.device_work = run.report.device_work;
   bench.host_seconds = seconds_outside_kernels(run.report, run.backend.runs_on_host());
   bench.megapixels = total(run.scene, run.options, run.report).pixels * 1e-6;
   bench.costs = bench_costs(run.scene, run.options, run.report, bench.rates,

@@ -34,10 +34,11 @@ struct BenchReport {
   DeviceRates rates;
   std::vector<Cost> costs;
   std::vector<StageReport> stages;
-  double wall_seconds = 0.0;        ///< from the first photograph to the mesh
-  double cpu_seconds = 0.0;         ///< of the process meanwhile
-  double host_seconds = 0.0;        ///< of the CPU, outside kernels
-  double megapixels = 0.0;          ///< of the views with a depth map
+  double wall_seconds = 0.0;  ///< from the first photograph to the mesh
+  double cpu_seconds = 0.0;   ///< of the process meanwhile
+  double host_seconds = 0.0;  ///< of the CPU, outside kernels
+  double megapixels = 0.0;    ///< of the views with a depth map
+  DeviceWork device_work;
   std::uint64_t bytes_written = 0;  ///< of the files that the run left
   std::uint64_t peak_memory_bytes = 0;
 

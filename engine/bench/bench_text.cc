@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -39,6 +40,24 @@ std::string run_line(const BenchReport& report) {
                      report.device);
 }
 
+/// What a device is asked for, counted, in the order of the report.
+struct DeviceCount {
+  const char* name;
+  const char* text;
+  std::uint64_t DeviceWork::*member;
+  double unit = 1.0;
+};
+constexpr std::array kDeviceCounts = {
+    DeviceCount{"uploaded_bytes", "uploaded, MiB", &DeviceWork::uploaded_bytes, kMebibyte},
+    DeviceCount{"downloaded_bytes", "downloaded, MiB", &DeviceWork::downloaded_bytes, kMebibyte},
+    DeviceCount{"submissions", "submissions", &DeviceWork::submissions},
+    DeviceCount{"dispatches", "dispatches", &DeviceWork::dispatches},
+    DeviceCount{"allocations", "allocations", &DeviceWork::allocations}};
+
+double value_of(const DeviceCount& count, const BenchReport& report) {
+  return static_cast<double>(report.device_work.*count.member) / count.unit;
+}
+
 BenchReport from_json(const Json& json) {
   BenchReport report;
   report.version = json.at("version");
@@ -58,6 +77,8 @@ BenchReport from_json(const Json& json) {
   report.host_seconds = json.value("host_seconds", 0.0);  // older reports have not counted this and what follows
   report.megapixels = json.value("megapixels", 0.0);
   report.bytes_written = json.value("bytes_written", std::uint64_t{0});
+  for (const DeviceCount& count : kDeviceCounts)
+    report.device_work.*count.member = json.value("device_work", Json::object()).value(count.name, std::uint64_t{0});
   report.peak_memory_bytes = json.at("peak_memory_bytes");
   return report;
 }
@@ -80,6 +101,8 @@ std::string bench_json(const BenchReport& report) {
   Json stages = Json::array();
   for (const StageReport& stage : report.stages)
     stages.push_back({{"name", stage.name}, {"wall_seconds", stage.wall_seconds}, {"cpu_seconds", stage.cpu_seconds}});
+  Json device_work = Json::object();
+  for (const DeviceCount& count : kDeviceCounts) device_work[count.name] = report.device_work.*count.member;
   const Json all = {
       {"version", report.version},
       {"device", report.device},
@@ -95,6 +118,7 @@ std::string bench_json(const BenchReport& report) {
       {"host_seconds", report.host_seconds},
       {"megapixels", report.megapixels},
       {"host_seconds_per_megapixel", report.host_seconds_per_megapixel()},
+      {"device_work", device_work},
       {"bytes_written", report.bytes_written},
       {"peak_memory_bytes", report.peak_memory_bytes}};
   return all.dump(2) + "\n";
@@ -138,6 +162,9 @@ std::string bench_table(const BenchReport& report) {
   fmt::format_to(out, "{:<18} {:>10.3f} {:>10.3f}\n", "whole run", report.wall_seconds, report.cpu_seconds);
   fmt::format_to(out, "outside kernels    {:>10.3f} CPU s a megapixel of {:.1f}\n", report.host_seconds_per_megapixel(),
                  report.megapixels);
+  if (report.device_work.submissions > 0)
+    for (const DeviceCount& count : kDeviceCounts)
+      fmt::format_to(out, "{:<18} {:>10.0f}\n", count.text, value_of(count, report));
   fmt::format_to(out, "files              {:>10.1f} MiB\n", static_cast<double>(report.bytes_written) / kMebibyte);
   fmt::format_to(out, "peak memory        {:>10.0f} MiB\n", static_cast<double>(report.peak_memory_bytes) / kMebibyte);
   return text;
@@ -170,6 +197,8 @@ std::string compare_table(const BenchReport& before, const BenchReport& after) {
     row("files, MiB", static_cast<double>(before.bytes_written) / kMebibyte,
         static_cast<double>(after.bytes_written) / kMebibyte);
   }
+  if (before.device_work.submissions > 0)
+    for (const DeviceCount& count : kDeviceCounts) row(count.text, value_of(count, before), value_of(count, after));
   row("peak memory, MiB", static_cast<double>(before.peak_memory_bytes) / kMebibyte,
       static_cast<double>(after.peak_memory_bytes) / kMebibyte);
   return text;

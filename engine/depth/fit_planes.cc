@@ -51,16 +51,20 @@ struct Moments {
 
 }  // namespace
 
-Grid<PlaneTrial> fit_planes(const Grid<PixelVote>& votes, const DepthPlanes& planes) {
+float fit_limit(const DepthPlanes& planes) {
   constexpr float kSteps = 3.0F;
+  return kSteps * planes.step();
+}
+
+Grid<PlaneTrial> fit_planes(const Grid<PixelVote>& votes, const DepthPlanes& planes) {
   const auto inverse_depth = [&](int plane) { return planes.inverse_depth[static_cast<std::size_t>(plane)]; };
+  const float limit = fit_limit(planes);
   Grid<PlaneTrial> fitted(votes.width, votes.height, PlaneTrial{});
   tbb::parallel_for(0, votes.height, [&](int y) {
     for (int x = 0; x < votes.width; ++x) {
       const int plane = votes.at(x, y).plane;
       if (plane < 0) continue;
       const float here = inverse_depth(plane);
-      const float limit = kSteps * planes.step();
       Moments moments;
       for (int dy = std::max(-kReach, -y); dy <= std::min(kReach, votes.height - 1 - y); ++dy) {
         for (int dx = std::max(-kReach, -x); dx <= std::min(kReach, votes.width - 1 - x); ++dx) {

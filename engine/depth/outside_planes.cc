@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/depth/fit_planes.h"
 #include "engine/depth/small_task.h"
-#include "engine/depth/vote_depth.h"
 #include "engine/scene/ray_box.h"
 
 namespace quorum {
@@ -89,27 +87,6 @@ Grid<OutsidePlane> outside_planes(const SweepTask& coarse, const DepthMap& map, 
     }
   }
   return outside;
-}
-
-Grid<PlaneTrial> first_planes(const SweepTask& task, const Grid<PixelVote>& first_pass) {
-  if (task.outside.values.empty()) return fit_planes(first_pass, task.planes);
-  const auto outside_of = [&](int x, int y) -> const OutsidePlane& {
-    return task.outside.at(std::min(x >> task.outside_halvings, task.outside.width - 1),
-                           std::min(y >> task.outside_halvings, task.outside.height - 1));
-  };
-  const auto prefers_outside = [&](int x, int y) {
-    const OutsidePlane& plane = outside_of(x, y);
-    return plane.inverse_depth > 0.0F && plane.correlation > first_pass.at(x, y).correlation;
-  };
-  Grid<PixelVote> inside = first_pass;
-  for (int y = 0; y < inside.height; ++y)
-    for (int x = 0; x < inside.width; ++x)
-      if (prefers_outside(x, y)) inside.at(x, y) = kNoVote;
-  Grid<PlaneTrial> planes = fit_planes(inside, task.planes);
-  for (int y = 0; y < planes.height; ++y)
-    for (int x = 0; x < planes.width; ++x)
-      if (prefers_outside(x, y)) planes.at(x, y) = {outside_of(x, y).inverse_depth, 0.0F, 0.0F, 0.0F, 0};
-  return planes;
 }
 
 }  // namespace quorum

@@ -23,8 +23,4 @@ SweepTask make_outside_task(const SweepTask& task, const View& reference, const 
 Grid<OutsidePlane> outside_planes(const SweepTask& coarse, const DepthMap& map, const View& reference,
                                   const Bounds& bounds);
 
-/// The planes with which the pixels of slanted windows begin: fitted to the first pass (fit_planes), or beyond the
-/// bounds where task.outside has one of a higher correlation.
-Grid<PlaneTrial> first_planes(const SweepTask& task, const Grid<PixelVote>& first_pass);
-
 }  // namespace quorum

@@ -1,4 +1,5 @@
 // What NCC needs of the windows of a reference view, once for all planes and neighbors.
+// Twin: shaders/lib/reference_windows.glsl, shaders/reference_windows.comp.
 #pragma once
 
 #include "engine/core/grid.h"

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "engine/core/clock.h"
-#include "engine/depth/outside_planes.h"
+#include "engine/depth/first_planes.h"
 #include "engine/depth/score_planes.h"
 #include "engine/depth/support_windows.h"
 #include "engine/depth/sweep_tile.h"

@@ -1,5 +1,6 @@
 // Scores of tilted planes, many at a time: NCC of the support of each against every neighbor, and its votes. Planes
-// that can't win any more are dropped after the neighbor that showed it. Twin of shaders/score_planes.comp.
+// that can't win any more are dropped after the neighbor that showed it. Twin of what shaders/refine_planes.comp
+// does with a trial.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // The parts of reference windows that look like their centers: what lies behind or before an edge seldom has the colors
 // of this side, and would pull the window off the surface (beyond the paper, whose windows are whole; known as adaptive
 // support: Yoon and Kweon 2006). A pixel belongs to the part or not, so all sums stay exact.
+// Twin: shaders/support_windows.comp.
 #pragma once
 
 #include "engine/core/grid.h"

@@ -15,12 +15,6 @@ namespace quorum {
 /// The small images of the coarse sweep beyond the bounds (outside_planes.h) are halved this often.
 constexpr int kOutsideHalvings = 2;
 
-/// A plane beyond the bounds that faces the camera. inverse_depth 0 = none.
-struct OutsidePlane {
-  float inverse_depth = 0.0F;  ///< 1 / scene units
-  float correlation = 0.0F;    ///< of the small images
-};
-
 /// neighbors and warps are of equal length, 2 or more, in the order of view selection (which fixes the order of float
 /// sums). ranges has the size of the reference image.
 struct SweepTask {

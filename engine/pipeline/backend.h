@@ -9,6 +9,7 @@
 #include "engine/depth/depth_map.h"
 #include "engine/depth/sweep_task.h"
 #include "engine/image/padded_image.h"
+#include "engine/pipeline/device_work.h"
 #include "engine/volume/carve_blocks.h"
 #include "engine/volume/confirm_depths.h"
 #include "engine/volume/fusion_options.h"
@@ -101,6 +102,8 @@ class Backend {
   virtual Expected<DeviceRates> measure_rates() { return DeviceRates{}; }
   /// Counted work of the sweeps so far; all 0 on a device that does not count it.
   [[nodiscard]] virtual SweepCounts sweep_counts() const { return {}; }
+  /// So far.
+  [[nodiscard]] virtual DeviceWork device_work() const { return {}; }
 };
 
 }  // namespace quorum

@@ -167,6 +167,7 @@ Expected<void> reconstruct(Run& run, const RunSteps& steps) {
   QUORUM_TRY(do_steps_or_renew(run, steps));
   run.report.kernels = run.backend.kernel_times();
   run.report.sweep = run.backend.sweep_counts();
+  run.report.device_work = run.backend.device_work();
   run.report.wall_seconds += wall_seconds() - wall_start;
   run.report.cpu_seconds += process_cpu_seconds() - cpu_start;
   run.report.peak_memory_bytes = peak_memory_bytes();

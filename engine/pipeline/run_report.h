@@ -34,6 +34,7 @@ struct RunReport {
   std::uint64_t peak_memory_bytes = 0;  ///< of the process, so far
   std::vector<StageTime> kernels;
   SweepCounts sweep;
+  DeviceWork device_work;
   std::vector<ViewReport> views;  ///< whose depth map this run made
   int kept_depth_maps = 0;        ///< that earlier runs made of the same
   int kept_certainties = 0;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <optional>
+
 #include "engine/core/option.h"
 #include "engine/pipeline/cpu_backend.h"
 
@@ -25,8 +28,10 @@ std::unique_ptr<Backend> make_cpu_backend(const RunOptions& options) {
 Expected<std::unique_ptr<Backend>> open_backend(const RunOptions& options) {
   QUORUM_ASSIGN(auto choice, choose_device(options.device));
   if (!choice.device) return make_cpu_backend(options);
-  QUORUM_ASSIGN(auto device, Device::open(*choice.device));
-  QUORUM_ASSIGN(auto backend, VulkanBackend::create(device));
+  const bool as_gpu = choice.device->kind == DeviceKind::kSoftware && std::getenv("QUORUM_SOFTWARE_AS_GPU") != nullptr;
+  QUORUM_ASSIGN(auto device, Device::open(*choice.device, {.force_staging = as_gpu}));
+  const std::optional<SweepForm> form = as_gpu ? std::optional(SweepForm::kGroups) : std::nullopt;
+  QUORUM_ASSIGN(auto backend, VulkanBackend::create(device, form));
   return backend;
 }
 

@@ -9,7 +9,7 @@ class WindowKernelsTest : public VulkanTest {};
 
 TEST_F(WindowKernelsTest, AreMadeOnceForEachSize) {
   auto commands = Commands::create(device()).value();
-  WindowKernels kernels(commands, "score_planes");
+  WindowKernels kernels(commands, "support_windows");
   const Kernel* five = &kernels.at(5);
   EXPECT_FALSE(five->empty());
   EXPECT_NE(&kernels.at(9), five);
@@ -19,7 +19,7 @@ TEST_F(WindowKernelsTest, AreMadeOnceForEachSize) {
 
 TEST_F(WindowKernelsTest, AreAskedForAgainAfterAFailure) {
   auto commands = Commands::create(device()).value();
-  WindowKernels kernels(commands, "score_planes");
+  WindowKernels kernels(commands, "support_windows");
   static_cast<void>(commands.allocate(std::uint64_t{1} << 60));
   EXPECT_TRUE(kernels.at(5).empty());
   EXPECT_FALSE(commands.submit());

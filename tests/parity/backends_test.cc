@@ -106,6 +106,30 @@ TEST_F(BackendsParity, ImagesOfDifferentSizesGiveEqualDepthMapsAndVolumes) {
   ASSERT_TRUE(same_words(on_device.voxels, twin.voxels, kBlockVoxels, "(voxel, slot)"));
 }
 
+TEST_F(BackendsParity, ADeviceWithMemoryOfItsOwnGivesEqualDepthMapsAndVolumes) {
+  const Device apart = Device::open(device().info(), {.validation = true, .force_staging = true}).value();
+  const std::unique_ptr<VulkanBackend> backend = VulkanBackend::create(apart, SweepForm::kGroups).value();
+  const Input input = make_input(97, 71, 11);
+  CpuBackend cpu;
+  for (const WindowModel model : {WindowModel::kSlanted, WindowModel::kPlane}) {
+    SweepOptions options;
+    options.window_model = model;
+    const SweepTask task = make_sphere_task(input.sphere, 1, options);
+    const DepthMap twin = cpu.sweep_depth(task).value();
+    const DepthMap on_device = backend->sweep_depth(task).value();
+    ASSERT_TRUE(same_words(on_device.depth.values, twin.depth.values, 97, "depth"));
+    ASSERT_TRUE(same_words(on_device.confidence.values, twin.confidence.values, 97, "confidence"));
+  }
+  FusionOptions fusion;
+  fusion.voxel_size = 0.05;
+  const std::vector<std::size_t> order = {0, 1, 2, 3};
+  const BlockPool twin = fuse(cpu, input, fusion, order);
+  const BlockPool on_device = fuse(*backend, input, fusion, order);
+  EXPECT_EQ(on_device.indices, twin.indices);
+  ASSERT_TRUE(same_words(on_device.voxels, twin.voxels, kBlockVoxels, "(voxel, slot)"));
+  for (const std::string& message : apart.take_validation_messages()) ADD_FAILURE() << message;
+}
+
 TEST_F(BackendsParity, DepthMapsAreEqualWhereKernelsSeeLittleOfABuffer) {
   const Device limited =
       Device::open(device().info(), {.validation = true, .max_storage_buffer_range = 1U << 16}).value();

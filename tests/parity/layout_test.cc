@@ -55,19 +55,27 @@ TEST_F(LayoutParity, VoteParamsAreReadMemberByMember) {
                    p.min_votes, p.threshold, p.confidence_scale));
 }
 
-TEST_F(LayoutParity, ScorePlanesParamsAreReadMemberByMember) {
-  const auto p = numbered<ScorePlanesParams>();
-  compare("probe_score_planes_params", p,
-          words_of(p.warp.rotation, p.warp.offset, p.width, p.height, p.neighbor_width, p.neighbor_height, p.left,
-                   p.min_votes, p.threshold, p.confidence_scale));
+TEST_F(LayoutParity, ReferenceWindowsParamsAreReadMemberByMember) {
+  const auto p = numbered<ReferenceWindowsParams>();
+  compare("probe_reference_windows_params", p, words_of(p.width, p.height, p.columns, p.rows));
+}
+
+TEST_F(LayoutParity, SupportWindowsParamsAreReadMemberByMember) {
+  const auto p = numbered<SupportWindowsParams>();
+  compare("probe_support_windows_params", p, words_of(p.width, p.height, p.tolerance));
+}
+
+TEST_F(LayoutParity, FirstPlanesParamsAreReadMemberByMember) {
+  const auto p = numbered<FirstPlanesParams>();
+  compare("probe_first_planes_params", p,
+          words_of(p.width, p.height, p.outside_width, p.outside_height, p.outside_halvings, p.limit));
 }
 
 TEST_F(LayoutParity, RefinePlanesParamsAreReadMemberByMember) {
   const auto p = numbered<RefinePlanesParams>();
   compare("probe_refine_planes_params", p,
-          words_of(p.move.offset_x, p.move.offset_y, p.move.inverse_depth, p.move.slope_x, p.move.slope_y,
-                   p.move.near_depth, p.move.near_slope, p.move.undoes, p.width, p.height, p.tried, p.ends_round,
-                   p.max_tilt, p.threshold, p.confidence_scale));
+          words_of(p.width, p.height, p.row_begin, p.row_end, p.move_begin, p.move_end, p.neighbor_count, p.is_first,
+                   p.min_votes, p.max_tilt, p.threshold, p.confidence_scale));
 }
 
 TEST_F(LayoutParity, ConfirmDepthsParamsAreReadMemberByMember) {

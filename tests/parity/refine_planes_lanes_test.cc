@@ -7,51 +7,8 @@
 namespace quorum {
 namespace {
 
-/// A round of moves at the rows of a run.
-struct Round {
-  std::vector<PlaneMove> moves;
-  bool is_first = false;
-  int row_begin = 0;
-  int row_end = 0;
-  int rows_per_lane = 1;
-};
-
 class RefinePlanesLanesParity : public ParityTest {
  protected:
-  static SweepTask make_task(int window, int tolerance, bool flip, int width, int height, unsigned seed) {
-    SweepOptions options;
-    options.window = window;
-    options.threshold = 0.4F;
-    options.support_tolerance = tolerance;
-    return make_sphere_task(make_sphere_scene(4, width, height, flip, seed), 1, options);
-  }
-
-  /// What a pixel takes from a round, window by window. True if it tried a plane.
-  static bool refine_pixel(const SweepTask& task, const Grid<SupportWindow>& supports, const Round& round, int x, int y,
-                           const InverseDepthRange& range, const Grid<PixelPlane>& last, PixelPlane& best) {
-    const VoteRule rule = make_vote_rule(task.options, task.neighbor_count());
-    bool tried = false;
-    int number = 0;
-    for (const PlaneMove& move : round.moves) {
-      ++number;
-      const int other_x = x + move.offset_x;
-      const int other_y = y + move.offset_y;
-      const PixelPlane other = last.contains(other_x, other_y) ? last.at(other_x, other_y) : kNoPlane;
-      PlaneTrial trial = round.is_first ? PlaneTrial{other.inverse_depth, other.slope_x, other.slope_y, 0.0F, 0}
-                                        : move_plane(move, best, other);
-      if (trial.inverse_depth == 0.0F || !may_take(trial, range, task.max_tilt)) continue;
-      tried = true;
-      for (int neighbor = 0; neighbor < task.neighbor_count(); ++neighbor) {
-        const float ncc = plane_ncc(task, supports.at(x, y), neighbor, x, y, trial);
-        if (!(ncc > rule.threshold)) continue;
-        trial.ncc_sum += ncc;
-        ++trial.votes;
-      }
-      if (can_win(trial.ncc_sum, trial.votes, 0, best.confidence, rule)) best = taken_plane(trial, rule, number);
-    }
-    return tried;
-  }
-
   static PlaneTexel texel_of(const PixelPlane& plane) {
     return {plane.inverse_depth, plane.slope_x, plane.slope_y,
             plane.taken_by != 0 ? -plane.confidence : plane.confidence};
@@ -137,7 +94,7 @@ class RefinePlanesLanesParity : public ParityTest {
 TEST_F(RefinePlanesLanesParity, EveryWindowGivesTheBytesOfTheTwin) {
   unsigned seed = 1;
   for (const int window : {3, 5, 9, 15}) {
-    const SweepTask task = make_task(window, 30, window % 4 == 1, 67, 45, seed);
+    const SweepTask task = make_planes_task(window, 30, window % 4 == 1, 67, 45, seed);
     const std::vector<PlaneMove> moves = plane_rounds(task.planes, window)[1];
     compare(task, {moves, false, 0, 45, 32}, seed++);
     if (HasFailure()) return;
@@ -145,19 +102,19 @@ TEST_F(RefinePlanesLanesParity, EveryWindowGivesTheBytesOfTheTwin) {
 }
 
 TEST_F(RefinePlanesLanesParity, TheFirstPlanesAreTriedAsTheyAre) {
-  const SweepTask task = make_task(5, 255, true, 67, 45, 5);
+  const SweepTask task = make_planes_task(5, 255, true, 67, 45, 5);
   compare(task, {{PlaneMove{}}, true, 0, 45, 7}, 5);
 }
 
 TEST_F(RefinePlanesLanesParity, ARunWritesItsRowsAlone) {
-  const SweepTask task = make_task(5, 30, false, 50, 61, 6);
+  const SweepTask task = make_planes_task(5, 30, false, 50, 61, 6);
   const std::vector<PlaneMove> moves = plane_rounds(task.planes, 5)[0];
   compare(task, {moves, false, 13, 14, 1}, 6);
   compare(task, {moves, false, 20, 61, 6}, 7);
 }
 
 TEST_F(RefinePlanesLanesParity, TheStageGivesThePlanesOfTheTwinWhereKernelsSeeLittleOfABuffer) {
-  const SweepTask task = make_task(5, 15, true, 150, 101, 8);
+  const SweepTask task = make_planes_task(5, 15, true, 150, 101, 8);
   const CpuSweepOptions cpu;
   const Grid<PixelVote> first_pass = sweep_planes(task, task.ranges, task.planes.refinement, cpu);
   const Grid<PixelPlane> twin = refine_planes(task, first_pass, cpu);

@@ -43,6 +43,7 @@ class LimitedBackend : public Backend {
   }
   [[nodiscard]] std::vector<StageTime> kernel_times() const override { return inner_.kernel_times(); }
   [[nodiscard]] SweepCounts sweep_counts() const override { return inner_.sweep_counts(); }
+  [[nodiscard]] DeviceWork device_work() const override { return inner_.device_work(); }
 
  private:
   Backend& inner_;

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 /// Files that have no twin of their own, and why.
 const std::map<std::string, std::string> kExceptions = {
     {"shaders/measure_operations.comp", "has no result: only its time counts"},
+    {"shaders/lib/pixel_tile.glsl", "fills shared memory, and computes nothing"},
     {"shaders/lib/vote_for_block.glsl", "what vote_depth and vote_depth_lanes share; they name the twin"},
 };
 

@@ -8,19 +8,16 @@ layout(push_constant) uniform Push { RefinePlanesParams p; };
 layout(std430, binding = 0) writeonly buffer Words { uint words[]; };
 
 void main() {
-  words[0] = uint(p.move.offset_x);
-  words[1] = uint(p.move.offset_y);
-  words[2] = floatBitsToUint(p.move.inverse_depth);
-  words[3] = floatBitsToUint(p.move.slope_x);
-  words[4] = floatBitsToUint(p.move.slope_y);
-  words[5] = floatBitsToUint(p.move.near_depth);
-  words[6] = floatBitsToUint(p.move.near_slope);
-  words[7] = uint(p.move.undoes);
-  words[8] = uint(p.width);
-  words[9] = uint(p.height);
-  words[10] = uint(p.tried);
-  words[11] = uint(p.ends_round);
-  words[12] = floatBitsToUint(p.max_tilt);
-  words[13] = floatBitsToUint(p.threshold);
-  words[14] = floatBitsToUint(p.confidence_scale);
+  words[0] = uint(p.width);
+  words[1] = uint(p.height);
+  words[2] = uint(p.row_begin);
+  words[3] = uint(p.row_end);
+  words[4] = uint(p.move_begin);
+  words[5] = uint(p.move_end);
+  words[6] = uint(p.neighbor_count);
+  words[7] = uint(p.is_first);
+  words[8] = uint(p.min_votes);
+  words[9] = floatBitsToUint(p.max_tilt);
+  words[10] = floatBitsToUint(p.threshold);
+  words[11] = floatBitsToUint(p.confidence_scale);
 }

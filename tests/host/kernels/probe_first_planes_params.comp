@@ -1,0 +1,17 @@
+// Writes each member of FirstPlanesParams as one word.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "layout.h"
+
+layout(local_size_x = 1) in;
+layout(push_constant) uniform Push { FirstPlanesParams p; };
+layout(std430, binding = 0) writeonly buffer Words { uint words[]; };
+
+void main() {
+  words[0] = uint(p.width);
+  words[1] = uint(p.height);
+  words[2] = uint(p.outside_width);
+  words[3] = uint(p.outside_height);
+  words[4] = uint(p.outside_halvings);
+  words[5] = floatBitsToUint(p.limit);
+}
