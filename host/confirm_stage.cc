@@ -3,25 +3,38 @@
 #include "host/buffer.h"
 
 namespace quorum {
+namespace {
+
+constexpr std::uint64_t kShareForViews = 32;  // one part in so many of the device's memory, for each worker
+
+}  // namespace
+
+ConfirmStage::ConfirmStage(Commands& commands)
+    : commands_(&commands),
+      confirm_depths_(commands.kernel("confirm_depths")),
+      views_(resident_bytes(commands.device(), kShareForViews),
+             [this](const ViewDepths& view) { return upload(view); }) {}
+
+std::vector<Buffer> ConfirmStage::upload(const ViewDepths& view) const {
+  const Buffer depth = commands_->upload(view.depth.values);
+  return {depth, view.certainty.empty() ? depth : commands_->upload(view.certainty.values)};
+}
 
 Expected<Grid<float>> ConfirmStage::run(const ConfirmTask& task) {
-  const Grid<float>& depth = task.view.depth;
+  const Grid<float>& depth = task.view->depth;
   Grid<int> support(depth.width, depth.height);
-  const Buffer depth_buffer = commands_->upload(depth.values);
-  const Buffer certainty_buffer =
-      task.view.certainty.empty() ? depth_buffer : commands_->upload(task.view.certainty.values);
-  const Buffer support_buffer = commands_->upload(support.values);
-  commands_->region("confirm_depths");
+  const std::vector<Buffer> view = views_.of(task.view);
+  const Buffer support_buffer = commands_->allocate_zeros(sizeof(int) * support.values.size());
   for (std::size_t other = 0; other < task.others.size(); ++other) {
-    const ViewDepths& seen_by = task.others[other];
-    const Buffer other_buffer = commands_->upload(seen_by.depth.values);
-    const Buffer other_certainty =
-        seen_by.certainty.empty() ? other_buffer : commands_->upload(seen_by.certainty.values);
+    const std::vector<Buffer> seen_by = views_.of(task.others[other]);
+    commands_->region("confirm_depths");
     commands_->dispatch(confirm_depths_, {depth.width, depth.height}, make_confirm_depths_params(task, other),
-                        {depth_buffer, other_buffer, certainty_buffer, other_certainty, support_buffer});
-    QUORUM_TRY(commands_->submit());
+                        {view[0], seen_by[0], view[1], seen_by[1], support_buffer});
   }
-  QUORUM_TRY(commands_->download(support_buffer, support.values));
+  if (auto done = commands_->download(support_buffer, support.values); !done) {
+    forget();
+    return std::unexpected(std::move(done.error()));
+  }
   return certainty_map(depth, support);
 }
 

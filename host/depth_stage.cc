@@ -18,6 +18,7 @@ constexpr std::int64_t kLanesGroupSize = 16;     // invocations, each with an it
 // Planes of a block: with 32 neighbors 32,768 rounds of vote_depth's loops. lavapipe stops the loops of an invocation
 // after 65,535 rounds, without a word.
 constexpr std::int64_t kMaxPlanes = 1024;
+constexpr std::uint64_t kShareForImages = 16;  // one part in so many of the device's memory, for each worker
 constexpr std::int64_t kLeastWindows = 1LL << 14;
 constexpr std::int64_t kStartWindows = 1LL << 18;
 constexpr std::int64_t kMostWindows = 1LL << 34;
@@ -103,7 +104,8 @@ DepthStage::DepthStage(Commands& commands, std::optional<SweepForm> form)
       form_(form.value_or(form_for(*info_))),
       vote_depth_(commands.kernel(form_ == SweepForm::kLanes ? "vote_depth_lanes" : "vote_depth")),
       reference_windows_(commands, "reference_windows"),
-      images_(commands),
+      images_(resident_bytes(commands.device(), kShareForImages),
+              [this](const PaddedImage& image) { return std::vector{commands_->upload(image.pixels)}; }),
       planes_(commands),
       planes_in_lanes_(commands),
       batch_size_(kStartWindows, kLeastWindows, kMostWindows) {}
@@ -148,9 +150,9 @@ DepthStage::Inputs DepthStage::make_inputs(const SweepTask& task) {
   Inputs inputs;
   inputs.ncc = commands_->allocate(static_cast<std::uint64_t>(ncc_values(*info_)) * sizeof(float));
   inputs.reference =
-      lanes ? commands_->upload(make_reference_texels(*task.reference, window), use) : images_.of(task.reference);
+      lanes ? commands_->upload(make_reference_texels(*task.reference, window), use) : pixels_of(task.reference);
   for (const auto& image : task.neighbors)
-    inputs.neighbors.push_back(lanes ? commands_->upload(make_quads(*image), use) : images_.of(image));
+    inputs.neighbors.push_back(lanes ? commands_->upload(make_quads(*image), use) : pixels_of(image));
   if (lanes) {
     inputs.windows = commands_->upload(in_whole_blocks(make_reference_windows(*task.reference, window)).values, use);
   } else {
@@ -234,8 +236,8 @@ Expected<DepthMap> DepthStage::sweep_slanted(const SweepTask& task, const Inputs
     return depth_map_from_planes(planes, task);
   }
   SweptView swept;
-  swept.reference = images_.of(task.reference);
-  for (const auto& image : task.neighbors) swept.neighbors.push_back(images_.of(image));
+  swept.reference = pixels_of(task.reference);
+  for (const auto& image : task.neighbors) swept.neighbors.push_back(pixels_of(image));
   Band band = make_band(task.ranges);
   Pacer pacer(*commands_, batch_size_);
   QUORUM_TRY(run_band(task, inputs, task.ranges, sweep_->first, task.planes.refinement, 0, band, pacer));
@@ -253,7 +255,7 @@ Expected<DepthMap> DepthStage::sweep(const SweepTask& task) {
 
 Expected<DepthMap> DepthStage::run(const SweepTask& task) {
   auto map = sweep(task);
-  if (!map) images_.clear();
+  if (!map) forget();
   return map;
 }
 

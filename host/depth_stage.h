@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -15,7 +16,7 @@
 #include "host/kernel.h"
 #include "host/plane_lanes_stage.h"
 #include "host/plane_stage.h"
-#include "host/resident_images.h"
+#include "host/residents.h"
 #include "host/sweep_batch.h"
 #include "host/window_kernels.h"
 
@@ -34,6 +35,9 @@ class DepthStage {
 
   /// The depth map of one view. Fails (kDevice, kMemory) if the device does.
   Expected<DepthMap> run(const SweepTask& task);
+
+  /// Leaves the device's memory to other stages.
+  void forget() { images_.clear(); }
 
  private:
   /// The kernel of a pass, for blocks of one size.
@@ -65,6 +69,7 @@ class DepthStage {
   [[nodiscard]] SweepForm form_of(const SweepTask& task) const;
   void prepare_kernels(const SweepTask& task);
   [[nodiscard]] Pass make_pass(SweepForm form, const SweepOptions& options, BlockSize block) const;
+  Buffer pixels_of(const std::shared_ptr<const PaddedImage>& image) { return images_.of(image).front(); }
   [[nodiscard]] Inputs make_inputs(const SweepTask& task);
   Expected<DepthMap> sweep(const SweepTask& task);
   /// Two passes on planes that face the camera.
@@ -85,7 +90,7 @@ class DepthStage {
   SweepForm form_;
   Kernel vote_depth_;
   WindowKernels reference_windows_;
-  ResidentImages images_;
+  Residents<PaddedImage> images_;
   PlaneStage planes_;
   PlaneLanesStage planes_in_lanes_;
   std::map<std::tuple<SweepForm, int, WindowModel>, Sweep> sweeps_;  // that were made so far

@@ -107,7 +107,8 @@ bool Device::maps_buffers() const { return state_->maps_buffers; }
 
 DeviceWork Device::work() const {
   const WorkCounters& work = state_->work;
-  return {work.uploaded_bytes, work.downloaded_bytes, work.submissions, work.dispatches, work.allocations};
+  return {work.uploaded_bytes, work.downloaded_bytes, work.submissions,
+          work.dispatches,     work.allocations,      1e-9 * static_cast<double>(work.waited_nanoseconds)};
 }
 
 std::vector<std::string> Device::take_validation_messages() const {
@@ -153,7 +154,11 @@ Expected<void> Device::State::submit(const Recorder& recorder, std::chrono::nano
       ++work.submissions;
     }
     const auto limit = static_cast<std::uint64_t>(timeout.count());
-    if (device.waitForFences(*recorder.fence, VK_TRUE, limit) == vk::Result::eSuccess) return {};
+    const auto began = std::chrono::steady_clock::now();
+    const vk::Result result = device.waitForFences(*recorder.fence, VK_TRUE, limit);
+    work.waited_nanoseconds +=
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - began).count();
+    if (result == vk::Result::eSuccess) return {};
     const std::scoped_lock lock(queue_mutex);
     unanswered = true;
     return failure(ErrorKind::kDevice,

@@ -85,6 +85,11 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& device, const KernelCod
 
 Expected<Kernel> Kernel::create(const Device& device, const KernelCode& code,
                                 const std::vector<SpecConstant>& constants) {
+  std::string key = fmt::format("{} {}", code.name, fmt::ptr(code.words.data()));
+  for (const SpecConstant& constant : constants) key += fmt::format(" {}={}", constant.name, constant.value);
+  Device::State& on = *device.state();
+  const std::scoped_lock lock(on.kernel_mutex);
+  if (auto built = on.kernels[key].lock()) return Kernel(std::move(built));
   auto state = std::make_shared<State>();
   state->device = device.state();
   state->name = code.name;
@@ -95,6 +100,7 @@ Expected<Kernel> Kernel::create(const Device& device, const KernelCode& code,
     state->set_layout = make_set_layout(vulkan, state->layout);
     state->pipeline_layout = make_pipeline_layout(vulkan, state->layout, state->set_layout);
     state->pipeline = make_pipeline(vulkan, code, *state);
+    on.kernels[key] = state;
     return Kernel(std::move(state));
   });
 }

@@ -21,7 +21,8 @@ class Kernel {
 
   /// Builds a kernel with specialization constants by name, such as {{"kWindow", 5}}; those not named keep the defaults
   /// of the shader. A name that the kernel does not declare stops the program. Fails (kDevice) if the work group or the
-  /// number of buffers exceeds the device's limits, or if the driver can't compile the kernel.
+  /// number of buffers exceeds the device's limits, or if the driver can't compile the kernel. One that
+  /// was built on the device and is still there is given again.
   static Expected<Kernel> create(const Device& device, const KernelCode& code,
                                  const std::vector<SpecConstant>& constants = {});
 

@@ -8,9 +8,11 @@ namespace quorum {
 
 std::uint64_t MemoryPool::size_class(std::uint64_t bytes) {
   constexpr std::uint64_t kLeast = 1024;
+  constexpr std::uint64_t kLarge = 4 << 20;
   constexpr std::uint64_t kStepsOfDoubling = 8;
-  const std::uint64_t step = std::bit_floor(std::max(bytes, kLeast)) / kStepsOfDoubling;
-  return std::max((bytes + step - 1) / step * step, kLeast);
+  if (bytes <= kLarge) return std::bit_ceil(std::max(bytes, kLeast));
+  const std::uint64_t step = std::bit_floor(bytes) / kStepsOfDoubling;
+  return (bytes + step - 1) / step * step;
 }
 
 std::optional<Allocation> MemoryPool::take(std::uint64_t bytes) {

@@ -14,7 +14,7 @@ namespace quorum {
 class MemoryPool {
  public:
   /// Bytes that are allocated for a buffer of this many, so that buffers of about one size can take each other's
-  /// place: at most an eighth more.
+  /// place: a power of two up to 4 MiB, and at most an eighth more beyond.
   static std::uint64_t size_class(std::uint64_t bytes);
 
   /// Keeps at most this many bytes; 0 = nothing.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -43,6 +44,7 @@ struct WorkCounters {
   std::atomic<std::uint64_t> submissions = 0;
   std::atomic<std::uint64_t> dispatches = 0;
   std::atomic<std::uint64_t> allocations = 0;
+  std::atomic<std::int64_t> waited_nanoseconds = 0;
 };
 
 struct Device::State {
@@ -67,7 +69,10 @@ struct Device::State {
   Allocation staging;
 
   mutable WorkCounters work;
-  MemoryPool pool;  ///< of buffers that are not mapped
+
+  std::mutex kernel_mutex;                                      ///< guards what follows
+  std::map<std::string, std::weak_ptr<Kernel::State>> kernels;  ///< that were built, by name and constants
+  MemoryPool pool;                                              ///< of buffers that are not mapped
 
   explicit State(Instance from) : instance(std::move(from)) {}
   State(const State&) = delete;

@@ -15,7 +15,8 @@ Expected<std::unique_ptr<VulkanBackend>> VulkanBackend::create(const Device& dev
 Expected<void> VulkanBackend::open(const Device& device) {
   QUORUM_ASSIGN(auto commands, Commands::create(device));
   stages_ = std::make_unique<Stages>(std::move(commands), form_);
-  return stages_->commands.submit();  // the failures of the stages' kernels
+  QUORUM_TRY(stages_->commands.submit());                                          // the failures of kernels,
+  return stages_->views.with([](const ViewWorker&) { return Expected<void>(); });  // also of the first of these
 }
 
 Expected<void> VulkanBackend::renew() {
@@ -56,7 +57,10 @@ std::uint64_t VulkanBackend::view_bytes(std::uint64_t pixels, int neighbors) con
 
 std::vector<StageTime> VulkanBackend::kernel_times() const {
   std::vector<StageTime> times = lost_times_;
-  for (const RegionTiming& timing : stages_->commands.timings()) {
+  std::vector<RegionTiming> timings = stages_->commands.timings();
+  const std::vector<RegionTiming> of_views = stages_->views.timings();
+  timings.insert(timings.end(), of_views.begin(), of_views.end());
+  for (const RegionTiming& timing : timings) {
     auto time = std::ranges::find(times, timing.name, &StageTime::name);
     if (time == times.end()) time = times.insert(time, StageTime{timing.name, 0.0});
     time->seconds += timing.seconds;
@@ -67,8 +71,8 @@ std::vector<StageTime> VulkanBackend::kernel_times() const {
 DeviceWork VulkanBackend::device_work() const {
   const DeviceWork work = device().work();
   return {lost_work_.uploaded_bytes + work.uploaded_bytes, lost_work_.downloaded_bytes + work.downloaded_bytes,
-          lost_work_.submissions + work.submissions, lost_work_.dispatches + work.dispatches,
-          lost_work_.allocations + work.allocations};
+          lost_work_.submissions + work.submissions,       lost_work_.dispatches + work.dispatches,
+          lost_work_.allocations + work.allocations,       lost_work_.waited_seconds + work.waited_seconds};
 }
 
 }  // namespace quorum

@@ -4,9 +4,8 @@
 #include <memory>
 
 #include "engine/pipeline/backend.h"
-#include "host/confirm_stage.h"
-#include "host/depth_stage.h"
 #include "host/device_rates.h"
+#include "host/view_workers.h"
 #include "host/volume_stage.h"
 
 namespace quorum {
@@ -18,9 +17,15 @@ class VulkanBackend : public Backend {
   static Expected<std::unique_ptr<VulkanBackend>> create(const Device& device, std::optional<SweepForm> form = {});
 
   [[nodiscard]] std::string description() const override;
-  Expected<DepthMap> sweep_depth(const SweepTask& task) override { return stages_->depth.run(task); }
-  Expected<Grid<float>> confirm_depths(const ConfirmTask& task) override { return stages_->confirm.run(task); }
+  [[nodiscard]] std::size_t views_at_once() const override { return stages_->views.count(); }
+  Expected<DepthMap> sweep_depth(const SweepTask& task) override {
+    return stages_->views.with([&](ViewWorker& worker) { return worker.depth.run(task); });
+  }
+  Expected<Grid<float>> confirm_depths(const ConfirmTask& task) override {
+    return stages_->views.with([&](ViewWorker& worker) { return worker.confirm.run(task); });
+  }
   Expected<void> begin_volume(const VoxelGrid& grid, const FusionOptions& options) override {
+    stages_->views.forget();
     return stages_->volume.begin(grid, options);
   }
   Expected<std::vector<std::uint32_t>> collect_blocks(const FusionView& view) override {
@@ -50,12 +55,11 @@ class VulkanBackend : public Backend {
   /// What is gone with the device.
   struct Stages {
     Stages(Commands made, std::optional<SweepForm> form)
-        : commands(std::move(made)), depth(commands, form), confirm(commands), volume(commands) {}
+        : commands(std::move(made)), volume(commands), views(commands.device(), form) {}
 
     Commands commands;
-    DepthStage depth;
-    ConfirmStage confirm;
     VolumeStage volume;
+    ViewWorkers views;
   };
   explicit VulkanBackend(std::optional<SweepForm> form) : form_(form) {}
   Expected<void> open(const Device& device);

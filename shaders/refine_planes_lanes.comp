@@ -1,7 +1,8 @@
 // A round of planes that every pixel tries, in the form for software Vulkan, which runs invocations as the lanes of
-// vector instructions: an invocation goes down a column, at each pixel through the moves of the round, and for each move
-// through the neighbors, until a trial can't win any more. As one loop over windows, not three nested ones, so that a
-// lane goes on with its next window as soon as it has done one. Memory comes as texels (sweep_depth_lanes.comp).
+// vector instructions: an invocation goes down a column, at each pixel through the moves of the round, and for each
+// move through the neighbors, until a trial can't win any more. As one loop over windows, not three nested ones, so
+// that a lane goes on with its next window as soon as it has done one. Memory comes as texels
+// (sweep_depth_lanes.comp).
 // Twin: engine/depth/refine_planes.cc. The form for GPUs: refine_planes.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require

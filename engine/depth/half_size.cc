@@ -82,9 +82,9 @@ bool is_inside_patch(const DepthMap& coarse, int x, int y, float most_difference
 }  // namespace
 
 SweepTask make_half_task(const SweepTask& task, const DepthMap& full, const View& reference,
-                         const std::vector<const View*>& neighbors) {
+                         const std::vector<const View*>& neighbors, SmallImages& images) {
   constexpr int kGrown = 3;  // pixels of half size: what lies around makes planes and patches whole
-  SweepTask half = make_small_task(task, reference, neighbors, 1);
+  SweepTask half = make_small_task(task, reference, neighbors, 1, images);
   half.options.refinement = 1;
   half.outside = task.outside;
   half.outside_halvings = task.outside_halvings - 1;

@@ -41,8 +41,8 @@ Grid<std::uint8_t> swept_pixels(const Grid<PlaneRange>& ranges, int width, int h
 }  // namespace
 
 SweepTask make_outside_task(const SweepTask& task, const View& reference, const std::vector<const View*>& neighbors,
-                            const Bounds& bounds) {
-  SweepTask coarse = make_small_task(task, reference, neighbors, kOutsideHalvings);
+                            const Bounds& bounds, SmallImages& images) {
+  SweepTask coarse = make_small_task(task, reference, neighbors, kOutsideHalvings, images);
   coarse.options.window_model = WindowModel::kPlane;
   coarse.options.window = 5;
   coarse.options.refinement = 1;

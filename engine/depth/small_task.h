@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "engine/depth/small_images.h"
 #include "engine/depth/sweep_task.h"
 #include "engine/scene/scene.h"
 
@@ -15,7 +16,8 @@ bool has_small_images(const SweepTask& task);
 Camera small_camera(Camera camera, int halvings);
 
 /// The task with all images halved this often; without planes and ranges. reference, neighbors: the views of the task.
+/// images: where the small ones are kept.
 SweepTask make_small_task(const SweepTask& task, const View& reference, const std::vector<const View*>& neighbors,
-                          int halvings);
+                          int halvings, SmallImages& images);
 
 }  // namespace quorum

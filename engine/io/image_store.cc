@@ -67,15 +67,34 @@ Expected<Grid<T>> load(const View& view, const std::filesystem::path& path, cons
 ImageStore::ImageStore(const Scene& scene, std::size_t budget_bytes, double mask_below)
     : scene_(&scene), budget_bytes_(budget_bytes), mask_below_(mask_below) {}
 
-Expected<std::shared_ptr<const ColorImage>> ImageStore::image(int view) {
+Expected<ColorImage> ImageStore::load_image(int view) const {
   const View& source = view_at(view);
+  return load(source, source.image_path, Steps<Rgba>{read_image, undistort_image, halve_image});
+}
+
+Expected<std::shared_ptr<const ColorImage>> ImageStore::image(int view) {
   const Key key{Kind::kImage, view};
   if (auto kept = find(key)) return std::static_pointer_cast<const ColorImage>(kept);
-  auto loaded = load(source, source.image_path, Steps<Rgba>{read_image, undistort_image, halve_image});
+  auto loaded = load_image(view);
   if (!loaded) return std::unexpected(std::move(loaded.error()));
   const std::size_t bytes = byte_count(*loaded);
   return std::static_pointer_cast<const ColorImage>(
       keep(key, std::make_shared<const ColorImage>(std::move(*loaded)), bytes));
+}
+
+Expected<std::shared_ptr<const PaddedImage>> ImageStore::padded(int view) {
+  const Key key{Kind::kPadded, view};
+  if (auto kept = find(key)) return std::static_pointer_cast<const PaddedImage>(kept);
+  const auto make = [&]() -> Expected<PaddedImage> {
+    if (const auto kept = find({Kind::kImage, view}))
+      return pad_image(*std::static_pointer_cast<const ColorImage>(kept));
+    QUORUM_ASSIGN(const ColorImage image, load_image(view));
+    return pad_image(image);
+  };
+  QUORUM_ASSIGN(PaddedImage image, make());
+  const std::size_t bytes = image.pixels.size() * sizeof(Rgba) * 4 / 3;
+  return std::static_pointer_cast<const PaddedImage>(
+      keep(key, std::make_shared<const PaddedImage>(std::move(image)), bytes));
 }
 
 Expected<std::shared_ptr<const Mask>> ImageStore::mask(int view) {

@@ -10,6 +10,7 @@
 
 #include "engine/core/error.h"
 #include "engine/image/image.h"
+#include "engine/image/padded_image.h"
 #include "engine/scene/scene.h"
 
 namespace quorum {
@@ -19,7 +20,8 @@ namespace quorum {
 /// is kept, so a task of a thread pool can never wait for itself.
 class ImageStore {
  public:
-  /// scene must outlive the store. budget_bytes: of decoded pixels kept for later; what callers still hold is not
+  /// scene must outlive the store. budget_bytes: of decoded pixels kept for later, those of
+  /// padded images with what their small ones take (a third more); what callers still hold is not
   /// counted, and an image above the budget is returned but not kept. mask_below: 0 = off; above 0, up to 1, masks also
   /// exclude the background that mask_dark_background finds at this level.
   ImageStore(const Scene& scene, std::size_t budget_bytes, double mask_below = 0.0);
@@ -27,6 +29,9 @@ class ImageStore {
   /// Image of a view (0 to views - 1): its photograph, undistorted if the view has a lens. Fails (kInput) if its file
   /// is absent, does not decode, or has another size than the view or the lens says.
   Expected<std::shared_ptr<const ColorImage>> image(int view);
+
+  /// The same as sweeps read it. The image itself is kept only if something else asked for it.
+  Expected<std::shared_ptr<const PaddedImage>> padded(int view);
 
   /// Mask of a view: 1 where its mask file, if it has one, at the photograph's size or another one of its shape, and
   /// the background mask, if that is on, both say that the pixel takes part. Empty if neither applies. Fails (kInput)
@@ -37,7 +42,7 @@ class ImageStore {
   [[nodiscard]] std::size_t kept_bytes() const;
 
  private:
-  enum class Kind { kImage, kMask };
+  enum class Kind { kImage, kPadded, kMask };
   using Key = std::pair<Kind, int>;
   struct Entry {
     Key key;
@@ -46,6 +51,7 @@ class ImageStore {
   };
 
   [[nodiscard]] const View& view_at(int view) const;
+  Expected<ColorImage> load_image(int view) const;
   Expected<Mask> load_mask(int view);
   std::shared_ptr<const void> find(Key key);
   std::shared_ptr<const void> keep(Key key, std::shared_ptr<const void> value, std::size_t bytes);

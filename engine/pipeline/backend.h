@@ -46,7 +46,8 @@ struct DeviceRates {
   double bytes_per_second = 0.0;       ///< read and written
 };
 
-/// The stages of a run on one device. One call at a time. Failures are kDevice or kMemory.
+/// The stages of a run on one device. One call at a time, but sweep_depth and confirm_depths may be called for as many
+/// views at once as views_at_once says. Failures are kDevice or kMemory.
 class Backend {
  public:
   Backend() = default;
@@ -56,6 +57,9 @@ class Backend {
 
   /// What does the work, in words: "CPU, 2 threads, AVX-512" or a device with its driver.
   [[nodiscard]] virtual std::string description() const = 0;
+
+  /// Views that are worth working on at the same time, so that the device does not wait for the host.
+  [[nodiscard]] virtual std::size_t views_at_once() const { return 1; }
 
   /// Depth, correlation and confidence of one reference view (the paper, 2.1).
   virtual Expected<DepthMap> sweep_depth(const SweepTask& task) = 0;

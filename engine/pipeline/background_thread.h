@@ -55,7 +55,7 @@ class BackgroundThread {
 /// Some of them: jobs go to one after the other, and run at the same time.
 class BackgroundThreads {
  public:
-  /// count: at least one.
+  /// count: 0 if there are no jobs.
   explicit BackgroundThreads(std::size_t count);
 
   /// As BackgroundThread::run.

@@ -1,7 +1,6 @@
 #include "engine/pipeline/compute_depth_maps.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <mutex>
@@ -23,11 +22,6 @@
 namespace quorum {
 namespace {
 
-Expected<std::shared_ptr<const PaddedImage>> load_padded(ImageStore& images, int view) {
-  QUORUM_ASSIGN(auto image, images.image(view));
-  return std::make_shared<const PaddedImage>(pad_image(*image));
-}
-
 /// What is read of a view, and what is written.
 struct ReadView {
   SweepTask task;
@@ -38,11 +32,13 @@ struct ReadView {
 struct MadeView {
   DepthMap map;
   std::string record;
+  ViewReport report;
 };
 
 /// The depth map of a view: after a coarse sweep beyond the bounds, and then, where no depth was found, from images of
 /// half the size and with the second window, each if it is asked for.
-Expected<DepthMap> sweep_view(const View& view, const Bounds& bounds, ReadView& input, Backend& backend) {
+Expected<DepthMap> sweep_view(const View& view, const Bounds& bounds, ReadView& input, SmallImages& small,
+                              Backend& backend) {
   SweepTask& task = input.task;
   if (input.outside) {
     QUORUM_ASSIGN(const DepthMap found, backend.sweep_depth(*input.outside));
@@ -51,7 +47,7 @@ Expected<DepthMap> sweep_view(const View& view, const Bounds& bounds, ReadView& 
   auto map = backend.sweep_depth(task);
   if (!map) return map;
   if (task.options.half_size && has_small_images(task)) {
-    const SweepTask half = make_half_task(task, *map, view, input.neighbors);
+    const SweepTask half = make_half_task(task, *map, view, input.neighbors, small);
     QUORUM_ASSIGN(const DepthMap found, backend.sweep_depth(half));
     take_from_half(task, half, found, *map);
   }
@@ -104,15 +100,6 @@ std::vector<std::vector<int>> choose_neighbors(Run& run) {
   return chosen;
 }
 
-/// One for every four threads of the CPU, so that a device is not waited for, as long as the spare memory holds them
-/// and three times as much of photographs.
-ViewsInFlight views_in_flight(std::uint64_t spare, std::uint64_t each_more) {
-  constexpr std::uint64_t kMost = 6;
-  const std::uint64_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  const std::uint64_t wanted = std::clamp<std::uint64_t>(threads / 4, 1, kMost);
-  return {static_cast<std::size_t>(std::min(wanted, 1 + spare / 4 / std::max<std::uint64_t>(each_more, 1)))};
-}
-
 /// The views that have neighbors and no depth map yet that was made of the same. Others are counted as kept.
 Expected<std::vector<int>> find_missing(Run& run, const std::vector<std::vector<int>>& neighbors,
                                         Provenance& provenance) {
@@ -154,10 +141,10 @@ Expected<SweepTask> make_sweep_task(const Scene& scene, int reference, const std
   task.intrinsics = scene.views[reference].camera.intrinsics;
   task.max_tilt = max_plane_tilt(scene.views[reference].camera);
   task.ranges = make_plane_ranges(scene.views[reference], scene.bounds, *mask, task.planes, options.window / 2);
-  QUORUM_ASSIGN(auto image, load_padded(images, reference));
+  QUORUM_ASSIGN(auto image, images.padded(reference));
   task.reference = std::move(image);
   for (const int neighbor : neighbors) {
-    QUORUM_ASSIGN(auto other, load_padded(images, neighbor));
+    QUORUM_ASSIGN(auto other, images.padded(neighbor));
     task.neighbors.push_back(std::move(other));
     task.warps.push_back(make_plane_warp(scene.views[reference].camera, scene.views[neighbor].camera));
   }
@@ -176,10 +163,10 @@ Expected<void> check_depth_map_is_there(const Run& run, int index) {
 Expected<void> compute_depth_maps(Run& run) {
   const MemoryEstimate least = depth_map_memory(run.scene, run.options, run.backend);
   QUORUM_TRY(run.require(least, "computing depth maps"));
-  const std::uint64_t spare = std::max(run.budget.left(), least.total()) - least.total();
-  const std::uint64_t each_more = depth_map_in_flight_memory(run.scene, run.options).total();
-  const ViewsInFlight in_flight = views_in_flight(spare, each_more);
-  ImageStore images(run.scene, spare - (in_flight.count - 1) * each_more, run.options.mask_below);
+  const MemoryEstimate each_more = depth_map_in_flight_memory(run.scene, run.options, run.backend);
+  const ViewsInFlight in_flight = views_in_flight(run, least, each_more);
+  const std::uint64_t taken = least.total() + (in_flight.count - 1) * each_more.total();
+  ImageStore images(run.scene, std::max(run.budget.left(), taken) - taken, run.options.mask_below);
   const std::vector<std::vector<int>> neighbors = choose_neighbors(run);
   const auto neighbors_of = [&](int view) -> const std::vector<int>& {
     return neighbors[static_cast<std::size_t>(view)];
@@ -191,6 +178,7 @@ Expected<void> compute_depth_maps(Run& run) {
   run.workspace.remove_cloud();
   for (const char* stage : {"confirm", "fuse"}) run.workspace.remove_shards(stage);
   run.progress.stage("computing depth maps", static_cast<int>(missing.size()));
+  SmallImages small;
   std::mutex provenance_mutex;  // several views are read at the same time
   const auto read = [&](int view) -> Expected<ReadView> {
     QUORUM_ASSIGN(SweepTask task, make_sweep_task(run.scene, view, neighbors_of(view), run.options.sweep, images));
@@ -203,20 +191,22 @@ Expected<void> compute_depth_maps(Run& run) {
     for (const int neighbor : neighbors_of(view)) others.push_back(&run.scene.views[neighbor]);
     std::optional<SweepTask> outside;
     if (run.options.sweep.outside && has_small_images(task))
-      outside = make_outside_task(task, run.view(view), others, run.scene.bounds);
+      outside = make_outside_task(task, run.view(view), others, run.scene.bounds, small);
     return ReadView{std::move(task), std::move(outside), std::move(others), std::move(record)};
   };
   const auto sweep = [&](int view, ReadView& input) -> Expected<MadeView> {
     run.workspace.remove_depth_map(run.view(view).name);
-    QUORUM_ASSIGN(DepthMap map, sweep_view(run.view(view), run.scene.bounds, input, run.backend));
+    QUORUM_ASSIGN(DepthMap map, sweep_view(run.view(view), run.scene.bounds, input, small, run.backend));
     if (map.normal.empty()) map.normal = depth_normals(map.depth, run.view(view).camera);
-    run.report.views.push_back(report_view(run.scene, view, neighbors_of(view), input.task, map));
-    return MadeView{std::move(map), input.record};
+    ViewReport report = report_view(run.scene, view, neighbors_of(view), input.task, map);
+    return MadeView{std::move(map), input.record, std::move(report)};
   };
+  const auto tell = [&](int, const MadeView& made) { run.report.views.push_back(made.report); };
   const auto save = [&](int view, const MadeView& made) {
     return run.workspace.save_depth_map(run.view(view).name, made.map, made.record, run.options.saved_files());
   };
-  return for_each_view(run, missing, {"load_images", "sweep_depth", "save_depth_maps"}, read, sweep, save, in_flight);
+  return for_each_view(run, missing, {"load_images", "sweep_depth", "save_depth_maps"}, read, sweep, save, in_flight,
+                       tell);
 }
 
 }  // namespace quorum

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "engine/pipeline/certainty_rounds.h"
 #include "engine/pipeline/compute_depth_maps.h"
 #include "engine/pipeline/provenance.h"
+#include "engine/pipeline/recently_made.h"
 #include "engine/pipeline/view_loop.h"
 #include "engine/volume/range_surface.h"
 
@@ -33,33 +36,6 @@ std::vector<int> select_others(const Run& run, int view, const std::vector<int>&
   std::erase_if(others, [&](int other) { return !std::ranges::binary_search(views, other); });
   return others;
 }
-
-/// The depth maps that were read last, since neighboring views ask for the same ones. For one thread.
-class RecentDepths {
- public:
-  explicit RecentDepths(const Run& run) : run_(run) {}
-
-  Expected<Grid<float>> load(int view) {
-    const auto known = std::ranges::find(recent_, view, &Entry::view);
-    if (known != recent_.end()) {
-      std::rotate(recent_.begin(), known, known + 1);
-      return recent_.front().depth;
-    }
-    const View& source = run_.view(view);
-    QUORUM_ASSIGN(auto depth, run_.workspace.load_depth(source.name, source.width, source.height));
-    if (recent_.size() == kRecentDepthMaps) recent_.pop_back();
-    recent_.insert(recent_.begin(), {view, depth});
-    return depth;
-  }
-
- private:
-  struct Entry {
-    int view;
-    Grid<float> depth;
-  };
-  const Run& run_;
-  std::vector<Entry> recent_;  ///< the last one first
-};
 
 /// Who is compared with whom.
 class Comparisons {
@@ -98,25 +74,41 @@ class Comparisons {
   std::map<int, std::vector<int>> others_;
 };
 
-/// A view and those that it is compared with; certainties are those of the round before, if there was one.
-Expected<ConfirmTask> read_task(const Run& run, RecentDepths& depths, const CertaintyRounds& certainties, int round,
-                                int view, const std::vector<int>& others) {
-  const auto read = [&](int index) -> Expected<ViewDepths> {
-    QUORUM_ASSIGN(auto depth, depths.load(index));
-    ViewDepths result{std::move(depth), run.view(index).camera};
-    if (round == 0) return result;
-    QUORUM_ASSIGN(result.certainty, certainties.load(round - 1, index));
-    leave_out_dropped(result.certainty, result.depth);
-    return result;
-  };
-  QUORUM_ASSIGN(auto own, read(view));
-  ConfirmTask task{std::move(own), {}, run.options.fusion};
-  for (const int other : others) {
-    QUORUM_ASSIGN(auto other_depths, read(other));
-    task.others.push_back(std::move(other_depths));
+/// Reads views as others are compared with them in a round.
+class ViewReader {
+ public:
+  ViewReader(const Run& run, const CertaintyRounds& certainties) : run_(run), certainties_(certainties) {}
+
+  /// A view's depths, with the certainties of the round before, if there was one.
+  Expected<std::shared_ptr<const ViewDepths>> load(int round, int view) {
+    return recent_.get({round, view}, [&]() -> Expected<std::shared_ptr<const ViewDepths>> {
+      const View& source = run_.view(view);
+      QUORUM_ASSIGN(auto depth, run_.workspace.load_depth(source.name, source.width, source.height));
+      ViewDepths result{std::move(depth), source.camera};
+      if (round > 0) {
+        QUORUM_ASSIGN(result.certainty, certainties_.load(round - 1, view));
+        leave_out_dropped(result.certainty, result.depth);
+      }
+      return std::make_shared<const ViewDepths>(std::move(result));
+    });
   }
-  return task;
-}
+
+  /// A view and those that it is compared with.
+  Expected<ConfirmTask> load_task(int round, int view, const std::vector<int>& others) {
+    QUORUM_ASSIGN(auto own, load(round, view));
+    ConfirmTask task{std::move(own), {}, run_.options.fusion};
+    for (const int other : others) {
+      QUORUM_ASSIGN(auto seen_by, load(round, other));
+      task.others.push_back(std::move(seen_by));
+    }
+    return task;
+  }
+
+ private:
+  const Run& run_;
+  const CertaintyRounds& certainties_;
+  RecentlyMade<std::pair<int, int>, Expected<std::shared_ptr<const ViewDepths>>> recent_{kRecentViews};
+};
 
 /// That no depth map is missing that the shard's views need.
 Expected<void> check_inputs(const Run& run, const Shard& shard) {
@@ -135,40 +127,56 @@ std::uint64_t count_above(const Grid<float>& map, float least) {
   return static_cast<std::uint64_t>(std::ranges::count_if(map.values, [=](float value) { return value > least; }));
 }
 
+/// A view, and the certainty of its depths.
+struct ConfirmedView {
+  std::shared_ptr<const ViewDepths> view;
+  Grid<float> certainty;
+};
+
+/// The certainty, 0 in small patches that no other view confirms.
+Grid<float> without_specks(const Run& run, const ConfirmedView& confirmed) {
+  const Grid<float>& depth = confirmed.view->depth;
+  Grid<float> certainty = confirmed.certainty;
+  const float max_step =
+      make_range_surface_params(confirmed.view->camera, depth.width, depth.height, run.options.fusion).max_step;
+  drop_specks(depth, max_step, std::min(run.options.min_patch, most_speck_pixels(depth)), certainty);
+  return certainty;
+}
+
 /// The certainty of these views, round by round.
 Expected<void> confirm_round_by_round(Run& run, const std::vector<int>& missing,
-                                      const std::map<int, std::string>& records, Comparisons& comparisons) {
+                                      const std::map<int, std::string>& records, Comparisons& comparisons,
+                                      ViewsInFlight in_flight) {
   const int rounds = run.options.confirm_rounds;
   const auto worked_on = [&](int round) { return comparisons.reach(missing, rounds - round); };
   std::size_t steps = 0;
   for (int round = 0; round <= rounds; ++round) steps += worked_on(round).size();
   run.progress.stage("confirming depths", static_cast<int>(steps));
   QUORUM_ASSIGN(const auto certainties, CertaintyRounds::create(run));
-  RecentDepths depths(run);
+  ViewReader reader(run, certainties);
+  std::atomic<std::uint64_t> compared = 0;
+  std::atomic<std::uint64_t> agreed = 0;
   for (int round = 0; round <= rounds; ++round) {
     const std::vector<int> views = worked_on(round);
     for (const int view : views) comparisons.others(view);  // before threads ask
-    const auto read = [&](int view) {
-      return read_task(run, depths, certainties, round, view, comparisons.others(view));
-    };
-    const auto confirm = [&](int view, const ConfirmTask& task) -> Expected<Grid<float>> {
-      const Grid<float>& depth = task.view.depth;
+    const auto read = [&](int view) { return reader.load_task(round, view, comparisons.others(view)); };
+    const auto confirm = [&](int, const ConfirmTask& task) -> Expected<ConfirmedView> {
       QUORUM_ASSIGN(Grid<float> certainty, run.backend.confirm_depths(task));
-      const float max_step =
-          make_range_surface_params(task.view.camera, depth.width, depth.height, task.fusion).max_step;
-      drop_specks(depth, max_step, std::min(run.options.min_patch, most_speck_pixels(depth)), certainty);
+      return ConfirmedView{task.view, std::move(certainty)};
+    };
+    const auto save = [&](int view, const ConfirmedView& confirmed) -> Expected<void> {
+      const Grid<float> certainty = without_specks(run, confirmed);
+      if (round == 0 && std::ranges::binary_search(missing, view)) compared += count_above(confirmed.view->depth, 0);
+      if (round < rounds) return certainties.save(round, view, certainty);
       constexpr float kConfirmed = 0.6F;  // by one other view, and no other one looks through
-      if (round == 0 && std::ranges::binary_search(missing, view)) run.report.compared_depths += count_above(depth, 0);
-      if (round == rounds) run.report.confirmed_depths += count_above(certainty, kConfirmed);
-      return certainty;
+      agreed += count_above(certainty, kConfirmed);
+      return run.workspace.save_certainty(run.view(view).name, certainty, records.at(view), run.options.previews);
     };
-    const auto save = [&](int view, const Grid<float>& certainty) {
-      return round < rounds
-                 ? certainties.save(round, view, certainty)
-                 : run.workspace.save_certainty(run.view(view).name, certainty, records.at(view), run.options.previews);
-    };
-    QUORUM_TRY(for_each_view(run, views, {"load_depth_maps", "confirm_depths", "save_certainty"}, read, confirm, save));
+    QUORUM_TRY(for_each_view(run, views, {"load_depth_maps", "confirm_depths", "save_certainty"}, read, confirm, save,
+                             in_flight));
   }
+  run.report.compared_depths += compared;
+  run.report.confirmed_depths += agreed;
   return {};
 }
 
@@ -192,8 +200,10 @@ Expected<void> confirm_views(Run& run, const std::vector<int>& views) {
   }
   run.report.kept_certainties = static_cast<int>(records.size() - missing.size());
   if (missing.empty()) return {};
-  QUORUM_TRY(run.require(confirm_memory(run.scene, views, run.backend), "confirming depths"));
-  return confirm_round_by_round(run, missing, records, comparisons);
+  const MemoryEstimate least = confirm_memory(run.scene, views, run.backend);
+  QUORUM_TRY(run.require(least, "confirming depths"));
+  const ViewsInFlight in_flight = views_in_flight(run, least, confirm_in_flight_memory(run.scene, views, run.backend));
+  return confirm_round_by_round(run, missing, records, comparisons, in_flight);
 }
 
 Expected<void> check_certainties(const Run& run, const std::vector<int>& views) {

@@ -13,6 +13,7 @@ struct DeviceWork {
   std::uint64_t submissions = 0;  ///< each of which the host waits for
   std::uint64_t dispatches = 0;
   std::uint64_t allocations = 0;  ///< of memory
+  double waited_seconds = 0.0;    ///< by the host, for submissions to end
 };
 
 }  // namespace quorum

@@ -27,6 +27,7 @@ struct Fusion {
   const std::vector<int>& views;
   const VoxelGrid& grid;
   ImageStore& images;
+  ViewsInFlight in_flight;
 
   [[nodiscard]] bool fills_holes() const { return run.options.fusion.fill_holes; }
 };
@@ -88,7 +89,7 @@ Expected<void> for_each_map(const Fusion& fusion, const std::vector<int>& views,
     return use(view, FusionView{loaded.map, loaded.image, fusion.run.view(view).camera,
                                 loaded.normals.empty() ? nullptr : &loaded.normals});
   };
-  return for_each_view(fusion.run, views, {.read = "load_depth_maps"}, read, work);
+  return for_each_view(fusion.run, views, {.read = "load_depth_maps"}, read, work, fusion.in_flight);
 }
 
 /// Whether a view's share of the work is this run's.
@@ -141,7 +142,9 @@ Expected<BlockPool> fill_slab(const Fusion& fusion, const CollectedBlocks& colle
 /// The largest slab from block `first` on, before block `end`, that the budget holds now.
 Expected<Slab> next_slab(const Fusion& fusion, const Blocks& blocks, std::size_t first, std::size_t end) {
   Run& run = fusion.run;
-  const MemoryEstimate view = merge_memory(run.scene, fusion.views, fusion.grid, run.backend);
+  MemoryEstimate view = merge_memory(run.scene, fusion.views, fusion.grid, run.backend);
+  const std::uint64_t more = fusion.in_flight.count - 1;
+  view.items.push_back({"views in flight", more * merge_in_flight_memory(run.scene, fusion.views).total()});
   const std::uint64_t block_bytes = kVoxelBytes + block_surface_bytes(run.options.fusion);
   const auto voxel_room = [&](std::uint64_t room) { return room / block_bytes * kVoxelBytes; };
   const auto with_blocks = [&](std::uint64_t bytes) {
@@ -211,7 +214,10 @@ Expected<MeasuredVolume> measure_volume(Run& run, const std::vector<int>& views)
   run.report.slabs = 0;
   // A slab takes each photograph once, and the memory is better spent on large slabs.
   ImageStore images(run.scene, 0, run.options.mask_below);
-  const Fusion fusion{run, views, grid, images};
+  ViewsInFlight in_flight =
+      views_in_flight(run, merge_memory(run.scene, views, grid, run.backend), merge_in_flight_memory(run.scene, views));
+  in_flight.workers = 1;  // a volume takes one view at a time
+  const Fusion fusion{run, views, grid, images, in_flight};
 
   // Bits of empty voxels are there twice while they are read back, and four times while holes are filled.
   MemoryEstimate memory = merge_memory(run.scene, views, grid, run.backend);

@@ -42,8 +42,8 @@ MemoryEstimate depth_map_memory(const Scene& scene, const RunOptions& options, c
   const std::uint64_t second = options.sweep.second_window == 0 ? 0 : 1;
   return {{{"SweepTask: padded images, of two views", 2 * 4 * images * pixels},
            {"SweepTask::ranges, of two views", 2 * 8 * pixels},
-           {"make_outside_task: small images, of two views, and one as it is halved", (images + 10) * pixels},
-           {"make_half_task: small images, one as it is halved, ranges and maps", half * (images + 14) * pixels},
+           {"SmallImages: of two views, and one as it is halved", (5 * images / 2 + 10) * pixels},
+           {"make_half_task: ranges and maps", half * 14 * pixels},
            {"ImageStore: a photograph and its mask, of two views", 2 * 6 * pixels},
            {"undistort: a photograph as it is read", kDistortedBytes * most(scene, photograph_pixels_of)},
            {"Workspace::save_depth_map: four maps and normals, a file's bytes, pictures", 56 * pixels},
@@ -51,23 +51,40 @@ MemoryEstimate depth_map_memory(const Scene& scene, const RunOptions& options, c
            {"Backend::sweep_depth", backend.view_bytes(pixels, options.views.neighbor_count)}}};
 }
 
-MemoryEstimate depth_map_in_flight_memory(const Scene& scene, const RunOptions& options) {
+MemoryEstimate depth_map_in_flight_memory(const Scene& scene, const RunOptions& options, const Backend& backend) {
   const std::uint64_t pixels = most(scene, pixels_of);
   const auto images = static_cast<std::uint64_t>(1 + options.views.neighbor_count);
+  const std::uint64_t works = backend.views_at_once() > 1 ? 1 : 0;
   return {{{"SweepTask: padded images and ranges", (4 * images + 8) * pixels},
-           {"make_outside_task: small images, and one as it is halved", (images + 5) * pixels},
+           {"SmallImages: and one as it is halved", (5 * images / 4 + 6) * pixels},
            {"ImageStore: a photograph and its mask", 6 * pixels},
            {"undistort: a photograph as it is read", kDistortedBytes * most(scene, photograph_pixels_of)},
-           {"Workspace::save_depth_map: maps and normals, a file's bytes, pictures", 56 * pixels}}};
+           {"Workspace::save_depth_map: maps and normals, a file's bytes, pictures", 56 * pixels},
+           {"make_half_task: ranges and maps", works * 14 * pixels},
+           {"Backend::sweep_depth", works * backend.view_bytes(pixels, options.views.neighbor_count)}}};
 }
 
 MemoryEstimate confirm_memory(const Scene& scene, const std::vector<int>& views, const Backend& backend) {
   const std::uint64_t pixels = most_pixels(scene, views);
   return {{{"ConfirmTask: depths and certainties, of two views", 2 * 8 * (1 + kConfirmingViews) * pixels},
-           {"depth maps that were read last", 4 * kRecentDepthMaps * pixels},
+           {"views that were read last", 8 * kRecentViews * pixels},
            {"confirm_depths: support and certainty", (4 + 8) * pixels},
            {"Workspace::save_certainty: the map, a file's bytes, a picture", 16 * pixels},
            {"Backend::confirm_depths", backend.view_bytes(pixels, 0)}}};
+}
+
+MemoryEstimate confirm_in_flight_memory(const Scene& scene, const std::vector<int>& views, const Backend& backend) {
+  const std::uint64_t pixels = most_pixels(scene, views);
+  const std::uint64_t works = backend.views_at_once() > 1 ? 1 : 0;
+  return {{{"ConfirmTask: depths and certainties", 8 * (1 + kConfirmingViews) * pixels},
+           {"Backend::confirm_depths", works * backend.view_bytes(pixels, 0)},
+           {"Workspace::save_certainty: the map, a file's bytes, a picture", 16 * pixels}}};
+}
+
+MemoryEstimate merge_in_flight_memory(const Scene& scene, const std::vector<int>& views) {
+  const std::uint64_t pixels = most_pixels(scene, views);
+  return {{{"Workspace::load_depth_map, load_normals: maps and a file's bytes", (16 + 20) * pixels},
+           {"ImageStore: a photograph and its padded copy", 12 * pixels}}};
 }
 
 MemoryEstimate merge_memory(const Scene& scene, const std::vector<int>& views, const VoxelGrid& grid,

@@ -47,17 +47,22 @@ std::uint64_t least_run_bytes(const Scene& scene, const RunOptions& options, con
 MemoryEstimate depth_map_memory(const Scene& scene, const RunOptions& options, const Backend& backend);
 
 /// What one view more in flight takes: its photographs, read further ahead, and its maps, while they are written.
-MemoryEstimate depth_map_in_flight_memory(const Scene& scene, const RunOptions& options);
+MemoryEstimate depth_map_in_flight_memory(const Scene& scene, const RunOptions& options, const Backend& backend);
 
-/// Depth maps that are kept while views are confirmed.
-constexpr std::uint64_t kRecentDepthMaps = 12;
+/// Views whose depths and certainties are kept while others are compared with them.
+constexpr std::uint64_t kRecentViews = 12;
 
 /// The certainty of a view. views: that have a depth map, here and below.
 MemoryEstimate confirm_memory(const Scene& scene, const std::vector<int>& views, const Backend& backend);
 
+/// What one view more in flight takes.
+MemoryEstimate confirm_in_flight_memory(const Scene& scene, const std::vector<int>& views, const Backend& backend);
+
 /// A view that is merged into the volume, and the next one.
 MemoryEstimate merge_memory(const Scene& scene, const std::vector<int>& views, const VoxelGrid& grid,
                             const Backend& backend);
+/// What one view more in flight takes.
+MemoryEstimate merge_in_flight_memory(const Scene& scene, const std::vector<int>& views);
 
 /// A bit for each voxel of the grid, so many times, if holes are filled.
 MemoryEstimate empty_space_memory(const VoxelGrid& grid, const FusionOptions& options, int copies);

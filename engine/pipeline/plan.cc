@@ -58,7 +58,9 @@ Expected<void> sample_half_size(const Scene& small, int view, const std::vector<
   if (!task.options.half_size || !has_small_images(task)) return {};
   std::vector<const View*> others;
   for (const int neighbor : neighbors) others.push_back(&small.views[static_cast<std::size_t>(neighbor)]);
-  QUORUM_TRY(backend.sweep_depth(make_half_task(task, map, small.views[static_cast<std::size_t>(view)], others)));
+  SmallImages images;
+  const View& reference = small.views[static_cast<std::size_t>(view)];
+  QUORUM_TRY(backend.sweep_depth(make_half_task(task, map, reference, others, images)));
   sample.half_windows += windows_of(backend.sweep_counts()) - before;
   return {};
 }

@@ -101,8 +101,8 @@ int support_of(const ViewDepths& view, const ViewDepths& other, const ConfirmDep
 }  // namespace
 
 ConfirmDepthsParams make_confirm_depths_params(const ConfirmTask& task, std::size_t other) {
-  const ViewDepths& view = task.view;
-  const ViewDepths& seen_by = task.others[other];
+  const ViewDepths& view = *task.view;
+  const ViewDepths& seen_by = *task.others[other];
   const auto footprint_of = [](const Camera& camera) {
     return static_cast<float>(2.0 / (camera.intrinsics(0, 0) + camera.intrinsics(1, 1)));
   };
@@ -162,10 +162,11 @@ Grid<float> certainty_map(const Grid<float>& depth, const Grid<int>& support) {
 }
 
 Grid<float> confirm_depths(const ConfirmTask& task) {
-  Grid<int> support(task.view.depth.width, task.view.depth.height);
+  const Grid<float>& depth = task.view->depth;
+  Grid<int> support(depth.width, depth.height);
   for (std::size_t other = 0; other < task.others.size(); ++other)
-    confirm_depths(task.view, task.others[other], make_confirm_depths_params(task, other), support);
-  return certainty_map(task.view.depth, support);
+    confirm_depths(*task.view, *task.others[other], make_confirm_depths_params(task, other), support);
+  return certainty_map(depth, support);
 }
 
 }  // namespace quorum

@@ -12,6 +12,7 @@
 // the depth. A denied depth takes no part any more: its certainty is 0.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "engine/camera/camera.h"
@@ -32,10 +33,10 @@ struct ViewDepths {
   Grid<float> certainty = {};  ///< of the round before, of depth's size; empty in the first
 };
 
-/// A view whose depths are confirmed, and the others, at most kConfirmingViews.
+/// A view whose depths are confirmed, and the others, at most kConfirmingViews; shared, since each confirms several.
 struct ConfirmTask {
-  ViewDepths view;
-  std::vector<ViewDepths> others;
+  std::shared_ptr<const ViewDepths> view;
+  std::vector<std::shared_ptr<const ViewDepths>> others;
   FusionOptions fusion;  ///< max_slope_deg: between the pixels of an other view's surface
 };
 

@@ -5,8 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "engine/image/padded_image.h"
 #include "host/commands.h"
-#include "host/resident_images.h"
+#include "host/residents.h"
 #include "tests/support/vulkan_test.h"
 
 namespace quorum {
@@ -35,6 +36,10 @@ class StagedCommands : public VulkanTest {
   Commands& commands() { return *commands_; }
   [[nodiscard]] DeviceWork work() const { return staged_->work(); }
   Kernel saxpy() { return Kernel::create(*staged_, find_kernel("saxpy", test_kernel_table())).value(); }
+
+  Residents<PaddedImage> resident_images(std::uint64_t most_bytes) {
+    return {most_bytes, [this](const PaddedImage& image) { return std::vector{commands().upload(image.pixels)}; }};
+  }
 
   template <typename T>
   std::vector<T> read(const Buffer& buffer) {
@@ -94,24 +99,24 @@ TEST_F(StagedCommands, ACopyLandsWhereItIsTold) {
 }
 
 TEST_F(StagedCommands, AnImageIsUploadedOnceWhileTheHostHasIt) {
-  ResidentImages images(commands(), 1000);
+  Residents<PaddedImage> images = resident_images(1000);
   const auto make = [](Rgba color) {
     return std::make_shared<const PaddedImage>(PaddedImage{4, 4, std::vector<Rgba>(25, color)});
   };
   auto first = make(1);
   const auto second = make(2);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(read<Rgba>(images.of(first)), first->pixels);
-    EXPECT_EQ(read<Rgba>(images.of(second)), second->pixels);
+    EXPECT_EQ(read<Rgba>(images.of(first).front()), first->pixels);
+    EXPECT_EQ(read<Rgba>(images.of(second).front()), second->pixels);
   }
   EXPECT_EQ(work().uploaded_bytes, 200U);
   first = make(3);  // the one before is gone
-  EXPECT_EQ(read<Rgba>(images.of(first)), first->pixels);
+  EXPECT_EQ(read<Rgba>(images.of(first).front()), first->pixels);
   EXPECT_EQ(work().uploaded_bytes, 300U);
 }
 
 TEST_F(StagedCommands, TheImageUsedLeastRecentlyGoesFirst) {
-  ResidentImages images(commands(), 250);  // two of them
+  Residents<PaddedImage> images = resident_images(250);  // two of them
   std::vector<std::shared_ptr<const PaddedImage>> all;
   for (Rgba color = 0; color < 3; ++color)
     all.push_back(std::make_shared<const PaddedImage>(PaddedImage{4, 4, std::vector<Rgba>(25, color)}));
@@ -119,8 +124,8 @@ TEST_F(StagedCommands, TheImageUsedLeastRecentlyGoesFirst) {
   EXPECT_EQ(work().uploaded_bytes, 300U);
   images.of(all[1]);
   EXPECT_EQ(work().uploaded_bytes, 400U);
-  ResidentImages none(commands(), 0);
-  for (int i = 0; i < 2; ++i) EXPECT_EQ(read<Rgba>(none.of(all[0])), all[0]->pixels);
+  Residents<PaddedImage> none = resident_images(0);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(read<Rgba>(none.of(all[0]).front()), all[0]->pixels);
   EXPECT_EQ(work().uploaded_bytes, 600U);
 }
 

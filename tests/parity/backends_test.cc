@@ -2,6 +2,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "engine/pipeline/cpu_backend.h"
 #include "host/vulkan_backend.h"
@@ -127,6 +128,32 @@ TEST_F(BackendsParity, ADeviceWithMemoryOfItsOwnGivesEqualDepthMapsAndVolumes) {
   const BlockPool on_device = fuse(*backend, input, fusion, order);
   EXPECT_EQ(on_device.indices, twin.indices);
   ASSERT_TRUE(same_words(on_device.voxels, twin.voxels, kBlockVoxels, "(voxel, slot)"));
+  for (const std::string& message : apart.take_validation_messages()) ADD_FAILURE() << message;
+}
+
+TEST_F(BackendsParity, ViewsThatAreSweptAtOnceGiveEqualDepthMaps) {
+  const Device apart = Device::open(device().info(), {.validation = true, .force_staging = true}).value();
+  const std::unique_ptr<VulkanBackend> backend = VulkanBackend::create(apart, SweepForm::kGroups).value();
+  ASSERT_GT(backend->views_at_once(), 1U);
+  const Input input = make_input(97, 71, 12);
+  CpuBackend cpu;
+  std::vector<SweepTask> tasks;
+  for (int view = 0; view < 4; ++view) tasks.push_back(make_sphere_task(input.sphere, view, {}));
+  std::vector<DepthMap> maps(8);
+  std::vector<std::thread> threads;  // one more than there are workers
+  for (std::size_t i = 0; i < 4; ++i)
+    threads.emplace_back([&, i] {
+      maps[i] = backend->sweep_depth(tasks[i]).value();
+      maps[i + 4] = backend->sweep_depth(tasks[(i + 1) % 4]).value();
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const DepthMap twin = cpu.sweep_depth(tasks[i < 4 ? i : (i - 3) % 4]).value();
+    ASSERT_TRUE(same_words(maps[i].depth.values, twin.depth.values, 97, fmt::format("sweep {}", i)));
+    ASSERT_TRUE(same_words(maps[i].confidence.values, twin.confidence.values, 97, fmt::format("sweep {}", i)));
+  }
+  const auto times = backend->kernel_times();
+  EXPECT_EQ(std::ranges::count(times, "refine_planes", &StageTime::name), 1);
   for (const std::string& message : apart.take_validation_messages()) ADD_FAILURE() << message;
 }
 

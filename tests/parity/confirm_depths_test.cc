@@ -6,6 +6,7 @@
 #include "host/vulkan_backend.h"
 #include "tests/parity/parity_test.h"
 #include "tests/parity/surface_input.h"
+#include "tests/support/confirm_task.h"
 
 namespace quorum {
 namespace {
@@ -23,12 +24,12 @@ ConfirmTask noisy_task(unsigned seed, bool with_certainties) {
       std::mt19937 random(seed + static_cast<unsigned>(index));
       for (float& certainty : result.certainty.values) certainty = static_cast<float>(random() % 256) / 256.0F;
     }
-    return result;
+    return shared(std::move(result));
   };
   ConfirmTask task{depths(2), {}, {}};
   for (const std::size_t other : {0U, 1U, 3U, 4U}) task.others.push_back(depths(other));
   if (with_certainties) {  // a pit, in which the others see what lies in front
-    Grid<float>& depth = task.view.depth;
+    Grid<float>& depth = changed(task.view).depth;
     for (int y = depth.height / 3; y < depth.height * 2 / 3; ++y)
       for (int x = depth.width / 3; x < depth.width * 2 / 3; ++x) depth.at(x, y) *= 1.1F;
   }
@@ -40,17 +41,17 @@ TEST_F(ConfirmDepthsParity, NoisyMapsGiveTheBytesOfTheTwin) {
   for (const bool denies : {false, true}) {
     for (const unsigned seed : {1U, 2U, 3U}) {
       const ConfirmTask task = noisy_task(seed, denies);
-      const Grid<float>& depth = task.view.depth;
+      const Grid<float>& depth = task.view->depth;
       Grid<int> twin(depth.width, depth.height, 17);
       const Buffer support = buffer_of(twin.values);
-      const Buffer certainty = buffer_of(denies ? task.view.certainty.values : depth.values);
+      const Buffer certainty = buffer_of(denies ? task.view->certainty.values : depth.values);
       for (std::size_t other = 0; other < task.others.size(); ++other) {
-        const ViewDepths& seen_by = task.others[other];
+        const ViewDepths& seen_by = *task.others[other];
         const ConfirmDepthsParams params = make_confirm_depths_params(task, other);
         run(confirm, {depth.width, depth.height}, params,
             {buffer_of(depth.values), buffer_of(seen_by.depth.values), certainty,
              buffer_of(denies ? seen_by.certainty.values : seen_by.depth.values), support});
-        confirm_depths(task.view, seen_by, params, twin);
+        confirm_depths(*task.view, seen_by, params, twin);
         ASSERT_TRUE(same_words(content<std::int32_t>(support), twin.values, depth.width,
                                fmt::format("seed {} other view {} denies {}", seed, other, denies)));
       }

@@ -16,6 +16,7 @@ class LimitedBackend : public Backend {
   std::size_t integrated_block_views = 0;  ///< blocks that views were integrated into
 
   [[nodiscard]] std::string description() const override { return inner_.description(); }
+  [[nodiscard]] std::size_t views_at_once() const override { return inner_.views_at_once(); }
   Expected<DepthMap> sweep_depth(const SweepTask& task) override { return inner_.sweep_depth(task); }
   Expected<Grid<float>> confirm_depths(const ConfirmTask& task) override { return inner_.confirm_depths(task); }
   Expected<void> begin_volume(const VoxelGrid& grid, const FusionOptions& options) override {

@@ -9,6 +9,12 @@
 
 namespace quorum {
 
+/// Where small images are kept.
+inline SmallImages& small_images() {
+  static SmallImages images;
+  return images;
+}
+
 /// The neighbors in the task of make_sphere_task().
 inline std::vector<const View*> sphere_neighbors(const SphereScene& sphere, int reference) {
   std::vector<const View*> neighbors;
@@ -20,7 +26,7 @@ inline std::vector<const View*> sphere_neighbors(const SphereScene& sphere, int 
 /// task: of make_sphere_task().
 inline SweepTask make_coarse_sphere_task(const SphereScene& sphere, int reference, const SweepTask& task) {
   return make_outside_task(task, sphere.scene.views[static_cast<std::size_t>(reference)],
-                           sphere_neighbors(sphere, reference), sphere.scene.bounds);
+                           sphere_neighbors(sphere, reference), sphere.scene.bounds, small_images());
 }
 
 /// Sets task.outside by the CPU's sweep.

@@ -20,7 +20,7 @@ struct HalfSize : ::testing::Test {
   const View& view = sphere.scene.views[kReference];
   const SweepTask task = make_sphere_task(sphere, kReference, {});
   const DepthMap full = sweep_depth(task, {});
-  const SweepTask half = make_half_task(task, full, view, sphere_neighbors(sphere, kReference));
+  const SweepTask half = make_half_task(task, full, view, sphere_neighbors(sphere, kReference), small_images());
   const DepthMap coarse = sweep_depth(half, {});
 };
 
@@ -45,7 +45,7 @@ TEST_F(HalfSize, OnlyWhatIsMissingIsSwept) {
   DepthMap whole = full;
   std::ranges::fill(whole.depth.values, 4.0F);
   const auto ranges_of = [&](const DepthMap& map) {
-    return make_half_task(task, map, view, sphere_neighbors(sphere, kReference)).ranges;
+    return make_half_task(task, map, view, sphere_neighbors(sphere, kReference), small_images()).ranges;
   };
   const auto is_swept = [](const PlaneRange& range) { return range.first <= range.last; };
   EXPECT_TRUE(std::ranges::none_of(ranges_of(whole).values, is_swept));
@@ -95,7 +95,8 @@ TEST_F(HalfSize, WhatLiesBeyondTheBoundsIsNotSeenInThem) {
   SweepTask looking = make_sphere_task(before, kReference, {});
   look_outside(before, kReference, looking);
   const DepthMap map = sweep_depth(looking, {});
-  SweepTask small = make_half_task(looking, map, before.scene.views[kReference], sphere_neighbors(before, kReference));
+  SweepTask small = make_half_task(looking, map, before.scene.views[kReference], sphere_neighbors(before, kReference),
+                                   small_images());
   const auto depths_of = [](const SweepTask& swept) {
     return std::ranges::count_if(sweep_depth(swept, {}).depth.values, [](float depth) { return depth > 0.0F; });
   };

@@ -52,6 +52,24 @@ TEST_F(ImageStoreTest, GivesTheImageOfTheView) {
   EXPECT_EQ(*store.image(2), *store.image(2));
 }
 
+TEST_F(ImageStoreTest, APaddedImageIsKeptInPlaceOfTheImage) {
+  ImageStore store(scene_, 1 << 20);
+  const auto padded = store.padded(1).value();
+  EXPECT_EQ(padded->pixels, pad_image(ColorImage(kWidth, kHeight, color(1))).pixels);
+  EXPECT_EQ(store.kept_bytes(), padded->pixels.size() * sizeof(Rgba) * 4 / 3);
+  EXPECT_EQ(store.padded(1).value(), padded);
+  remove_images();
+  EXPECT_EQ(store.padded(1).value(), padded);
+  EXPECT_FALSE(store.padded(2));
+}
+
+TEST_F(ImageStoreTest, APaddedImageIsMadeOfAnImageThatIsThere) {
+  ImageStore store(scene_, 1 << 20);
+  const auto image = store.image(3).value();
+  remove_images();
+  EXPECT_EQ(store.padded(3).value()->pixels, pad_image(*image).pixels);
+}
+
 TEST_F(ImageStoreTest, DropsWhatWasUsedLeastRecently) {
   ImageStore store(scene_, 2 * kImageBytes);
   const auto first = store.image(0);

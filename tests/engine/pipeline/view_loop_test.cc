@@ -36,7 +36,10 @@ class ViewLoop : public testing::Test {
       return 10 * view;
     };
     const auto work = [&, fail](int view, int input) -> Expected<int> {
+      EXPECT_EQ(std::this_thread::get_id() == main_, in_flight_.workers == 1);
+      if (in_flight_.workers > 1) std::this_thread::sleep_for(std::chrono::milliseconds(view % 2 == 0 ? 30 : 1));
       if (view == bad_work) return fail("work");
+      const std::lock_guard lock(mutex_);
       worked_.push_back(view);
       return input + 1;
     };
@@ -48,7 +51,12 @@ class ViewLoop : public testing::Test {
       written_.push_back(view);
       return {};
     };
-    return for_each_view(run_, views_, {"reading", "working", "writing"}, read, work, write, in_flight_);
+    const auto tell = [&](int view, int output) {
+      EXPECT_EQ(std::this_thread::get_id(), main_);
+      EXPECT_EQ(output, 10 * view + 1);
+      told_.push_back(view);
+    };
+    return for_each_view(run_, views_, {"reading", "working", "writing"}, read, work, write, in_flight_, tell);
   }
 
   std::string failure_of(const Expected<void>& done) { return done ? "none" : done.error().message; }
@@ -62,8 +70,9 @@ class ViewLoop : public testing::Test {
   quorum::Run run_{scene_, options_, cpu_, workspace_, progress_};
   std::vector<int> views_ = {0, 2, 3, 4};
   std::vector<int> worked_;
+  std::vector<int> told_;
   std::vector<int> written_;
-  std::mutex mutex_;  // of what is written
+  std::mutex mutex_;  // of what is worked on and written
   ViewsInFlight in_flight_;
   std::thread::id main_ = std::this_thread::get_id();
 };
@@ -71,6 +80,7 @@ class ViewLoop : public testing::Test {
 TEST_F(ViewLoop, EveryViewIsReadWorkedOnAndWrittenInOrder) {
   EXPECT_EQ(failure_of(loop()), "none");
   EXPECT_EQ(worked_, views_);
+  EXPECT_EQ(told_, views_);
   EXPECT_EQ(written_, views_);
   EXPECT_EQ(progress_.steps, 4);
   ASSERT_EQ(run_.report.stages.size(), 3U);
@@ -110,6 +120,45 @@ TEST_F(ViewLoop, SeveralInFlightGiveTheSame) {
   std::ranges::sort(written_);
   EXPECT_EQ(written_, views_);
   EXPECT_EQ(progress_.steps, 4);
+}
+
+TEST_F(ViewLoop, SeveralWorkersGiveTheSameInOrder) {
+  in_flight_ = {.count = 2, .workers = 3};
+  EXPECT_EQ(failure_of(loop()), "none");
+  std::ranges::sort(worked_);
+  EXPECT_EQ(worked_, views_);
+  EXPECT_EQ(told_, views_);
+  std::ranges::sort(written_);
+  EXPECT_EQ(written_, views_);
+  EXPECT_EQ(progress_.steps, 4);
+  ASSERT_EQ(run_.report.stages.size(), 3U);
+  EXPECT_EQ(run_.report.stages[1].name, "working");
+  EXPECT_GT(run_.report.stages[1].wall_seconds, 0.08) << "of all workers";
+}
+
+TEST_F(ViewLoop, WithSeveralWorkersViewsBeforeAFailureAreWritten) {
+  in_flight_ = {.count = 2, .workers = 3};
+  EXPECT_EQ(failure_of(loop(-1, 3)), "view3: work");
+  EXPECT_EQ(told_, (std::vector<int>{0, 2}));
+  std::ranges::sort(written_);
+  EXPECT_EQ(written_, (std::vector<int>{0, 2}));
+  told_.clear();
+  EXPECT_EQ(failure_of(loop(4)), "read");
+  progress_.stop_after = 0;
+  EXPECT_FALSE(loop());
+}
+
+TEST_F(ViewLoop, AStopWritesWhatWorkersHaveBegun) {
+  in_flight_ = {.count = 1, .workers = 2};
+  views_ = {0, 1, 2, 3, 4};
+  progress_.stop_after = 1;
+  const auto stopped = loop();
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().kind, ErrorKind::kStopped);
+  std::ranges::sort(worked_);
+  EXPECT_EQ(told_, worked_);
+  EXPECT_EQ(written_, told_);
+  EXPECT_EQ(told_, (std::vector<int>{0, 1, 2, 3}));
 }
 
 TEST_F(ViewLoop, AViewIsToldWhenItIsWritten) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/confirm_task.h"
+
 namespace quorum {
 namespace {
 
@@ -19,15 +21,15 @@ Camera camera_at(double x) {
   return camera;
 }
 
-ViewDepths plane_seen_from(double x, double depth) {
-  return {Grid<float>(kSide, kSide, static_cast<float>(depth)), camera_at(x)};
+std::shared_ptr<const ViewDepths> plane_seen_from(double x, double depth) {
+  return shared({Grid<float>(kSide, kSide, static_cast<float>(depth)), camera_at(x)});
 }
 
 /// Support of the middle of a plane at kDepth by a view beside it that sees a plane at another depth.
 int support_by(double other_depth) {
   const ConfirmTask task{plane_seen_from(0, kDepth), {plane_seen_from(0.1, other_depth)}, {}};
   Grid<int> support(kSide, kSide);
-  confirm_depths(task.view, task.others[0], make_confirm_depths_params(task, 0), support);
+  confirm_depths(*task.view, *task.others[0], make_confirm_depths_params(task, 0), support);
   return support.at(kCenter, kCenter);
 }
 
@@ -53,13 +55,13 @@ TEST(ConfirmDepths, WhatAnotherViewDoesNotSeeItDoesNotSupport) {
   // The other view is 0.3 to the right: 15 pixels of the plane's left part leave its image.
   const ConfirmTask task{plane_seen_from(0, kDepth), {plane_seen_from(0.3, kDepth)}, {}};
   Grid<int> support(kSide, kSide);
-  confirm_depths(task.view, task.others[0], make_confirm_depths_params(task, 0), support);
+  confirm_depths(*task.view, *task.others[0], make_confirm_depths_params(task, 0), support);
   EXPECT_EQ(support.at(14, kCenter), 0);
   EXPECT_EQ(support.at(16, kCenter), 4);
   // It is behind the plane and looks away.
   ConfirmTask behind = task;
-  behind.others[0].camera.translation = {0, 0, -3};
-  confirm_depths(behind.view, behind.others[0], make_confirm_depths_params(behind, 0), support);
+  changed(behind.others[0]).camera.translation = {0, 0, -3};
+  confirm_depths(*behind.view, *behind.others[0], make_confirm_depths_params(behind, 0), support);
   EXPECT_EQ(support.at(kCenter, kCenter), 0);
 }
 
@@ -70,13 +72,13 @@ TEST(ConfirmDepths, ASlantedSurfaceIsInterpolated) {
     for (int v = 0; v < kSide; ++v)
       for (int u = 0; u < kSide; ++u)
         view.depth.at(u, v) = static_cast<float>((kDepth + x / 2) / (1 - (u - kCenter) / kConfirmFocal / 2));
-    return view;
+    return shared(std::move(view));
   };
   const ConfirmTask task{seen_from(0), {seen_from(0.11)}, {}};
   ConfirmDepthsParams params = make_confirm_depths_params(task, 0);
   params.footprint *= 0.02F;  // agreement to a hundredth of a footprint
   Grid<int> support(kSide, kSide);
-  confirm_depths(task.view, task.others[0], params, support);
+  confirm_depths(*task.view, *task.others[0], params, support);
   for (int x = 10; x < 30; ++x) EXPECT_EQ(support.at(x, kCenter), 4) << x;
 }
 
@@ -85,10 +87,11 @@ TEST(ConfirmDepths, ASlantedSurfaceIsInterpolated) {
 ConfirmTask task_with_a_pit(double pit_depth, float certainty, float other_certainty) {
   constexpr int kPit = 8;  // half of its side, pixels
   ConfirmTask task{plane_seen_from(0, kDepth), {plane_seen_from(0.11, kDepth)}, {}};
+  ViewDepths& view = changed(task.view);
   for (int y = kCenter - kPit; y <= kCenter + kPit; ++y)
-    for (int x = kCenter - kPit; x <= kCenter + kPit; ++x) task.view.depth.at(x, y) = static_cast<float>(pit_depth);
-  task.view.certainty = Grid<float>(kSide, kSide, certainty);
-  task.others[0].certainty = Grid<float>(kSide, kSide, other_certainty);
+    for (int x = kCenter - kPit; x <= kCenter + kPit; ++x) view.depth.at(x, y) = static_cast<float>(pit_depth);
+  view.certainty = Grid<float>(kSide, kSide, certainty);
+  changed(task.others[0]).certainty = Grid<float>(kSide, kSide, other_certainty);
   return task;
 }
 
@@ -100,7 +103,7 @@ TEST(ConfirmDepths, ADepthThatLooksThroughASurerOneIsDenied) {
   EXPECT_EQ(center_of(task_with_a_pit(kPitDepth, 0.5F, 0.25F)), certainty_of(0)) << "surer than the other";
   EXPECT_EQ(center_of(task_with_a_pit(kDepth + 1.9 * kFootprint, 0.25F, 0.5F)), certainty_of(0)) << "not far enough";
   ConfirmTask first = task_with_a_pit(kPitDepth, 0.25F, 0.5F);
-  first.view.certainty = {};
+  changed(first.view).certainty = {};
   EXPECT_EQ(center_of(first), certainty_of(0)) << "no round came before";
   EXPECT_EQ(confirm_depths(task_with_a_pit(kPitDepth, 0.25F, 0.5F)).at(3 * kCenter / 2 + 1, 2), certainty_of(4))
       << "the wall that both see";
@@ -116,7 +119,7 @@ TEST(ConfirmDepths, WhatTheViewSeesItselfDoesNotDeny) {
   EXPECT_GT(certainty.at(kPitBorder, kCenter), 0.0F);
   // The wall in one of the four pixels around is enough.
   ConfirmTask pillar = task_with_a_pit(kDepth + 4 * kFootprint, 0.25F, 0.5F);
-  pillar.view.depth.at(kCenter + 1, kCenter) = static_cast<float>(kDepth);
+  changed(pillar.view).depth.at(kCenter + 1, kCenter) = static_cast<float>(kDepth);
   EXPECT_GT(confirm_depths(pillar).at(kCenter, kCenter), 0.0F);
   EXPECT_EQ(confirm_depths(pillar).at(kCenter + 3, kCenter), 0.0F);
 }
@@ -130,7 +133,7 @@ TEST(ConfirmDepths, CertaintyRisesWithSupport) {
 
 TEST(ConfirmDepths, WithoutOtherViewsAllDepthsAreUnconfirmed) {
   ConfirmTask task{plane_seen_from(0, kDepth), {}, {}};
-  task.view.depth.at(3, 4) = 0;
+  changed(task.view).depth.at(3, 4) = 0;
   const Grid<float> certainty = confirm_depths(task);
   EXPECT_EQ(certainty.at(3, 4), 0.0F);
   EXPECT_EQ(certainty.at(4, 4), certainty_of(0));
