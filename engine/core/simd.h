@@ -2,6 +2,9 @@
 // time: here alone.
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 namespace quorum {
 
 /// Instructions that a stage may use: those of the plain processor, x86-64-v3, x86-64-v4. All give the same bytes.
@@ -57,6 +60,11 @@ Form simd_choice(SimdLevel simd, Form baseline, Form avx2, Form avx512_vnni) {
   check_simd_level(simd);
   if (simd == SimdLevel::kAvx512 && has_avx512_vnni()) return avx512_vnni;
   return simd == SimdLevel::kBaseline ? baseline : avx2;
+}
+
+/// The value, or 0 if it is not wanted; by bits, since the compiler turns a choice into a branch and gives up vectors.
+[[gnu::always_inline]] inline float kept_if(bool wanted, float value) {
+  return std::bit_cast<float>(std::bit_cast<std::int32_t>(value) & -static_cast<std::int32_t>(wanted));
 }
 
 }  // namespace quorum

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "engine/core/simd.h"
 #include "engine/depth/project.h"
 #include "shaders/layout.h"
 
@@ -23,11 +24,6 @@ struct WindowPlacement {
   int v_y = 0;
   bool seen = false;
 };
-
-/// The value, or 0 if it is not wanted; by bits, since the compiler turns a choice into a branch and gives up vectors.
-[[gnu::always_inline]] inline float kept_if(bool wanted, float value) {
-  return std::bit_cast<float>(std::bit_cast<std::int32_t>(value) & -static_cast<std::int32_t>(wanted));
-}
 
 /// Derivative of a projected coordinate in 1/kPlacementScale pixel. At most kMaxStretch.
 [[gnu::always_inline]] inline int placement_step(float step) {

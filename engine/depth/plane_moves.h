@@ -6,6 +6,7 @@
 
 #include "engine/camera/camera.h"
 #include "engine/core/grid.h"
+#include "engine/core/simd.h"
 #include "engine/depth/sweep_task.h"
 #include "engine/depth/vote.h"
 #include "shaders/layout.h"
@@ -30,29 +31,30 @@ float max_plane_tilt(const Camera& camera);
 
 /// The plane that a move tries at a pixel. best: the pixel's best plane so far. other: the plane of the last round at
 /// the offset. Nothing if there is no such plane, if it did not change since it was tried, if it is near the best one,
-/// or if the step would only take back the one before.
+/// or if the step would only take back the one before. Without branches, for vectors.
 [[gnu::always_inline]] inline PlaneTrial move_plane(const PlaneMove& move, const PixelPlane& best,
                                                     const PixelPlane& other) {
-  constexpr PlaneTrial kNoTrial{0.0F, 0.0F, 0.0F, 0.0F, 0};
-  const bool from_neighbor = move.offset_x != 0 || move.offset_y != 0;
-  const PixelPlane& from = from_neighbor ? other : best;
-  if (from.inverse_depth == 0.0F) return kNoTrial;
-  if (from_neighbor ? from.taken_by == 0 : move.undoes != 0 && from.taken_by == move.undoes) return kNoTrial;
+  const bool from_neighbor = (move.offset_x != 0) | (move.offset_y != 0);
+  const PixelPlane from = from_neighbor ? other : best;
   const float ahead =
       static_cast<float>(move.offset_x) * from.slope_x + static_cast<float>(move.offset_y) * from.slope_y;
   const PlaneTrial trial{(from.inverse_depth - ahead) + move.inverse_depth, from.slope_x + move.slope_x,
                          from.slope_y + move.slope_y, 0.0F, 0};
-  const bool is_near = std::abs(trial.inverse_depth - best.inverse_depth) < move.near_depth &&
-                       std::abs(trial.slope_x - best.slope_x) < move.near_slope &&
-                       std::abs(trial.slope_y - best.slope_y) < move.near_slope;
-  return from_neighbor && best.inverse_depth != 0.0F && is_near ? kNoTrial : trial;
+  const bool is_near = (std::abs(trial.inverse_depth - best.inverse_depth) < move.near_depth) &
+                       (std::abs(trial.slope_x - best.slope_x) < move.near_slope) &
+                       (std::abs(trial.slope_y - best.slope_y) < move.near_slope);
+  const bool unchanged = from_neighbor ? from.taken_by == 0 : (move.undoes != 0) & (from.taken_by == move.undoes);
+  const bool is_none =
+      (from.inverse_depth == 0.0F) | unchanged | (from_neighbor & (best.inverse_depth != 0.0F) & is_near);
+  return {kept_if(!is_none, trial.inverse_depth), kept_if(!is_none, trial.slope_x), kept_if(!is_none, trial.slope_y),
+          0.0F, 0};
 }
 
 /// True if a pixel with this range may take the plane.
 [[gnu::always_inline]] inline bool may_take(const PlaneTrial& plane, const InverseDepthRange& range, float max_tilt) {
   const float limit = max_tilt * plane.inverse_depth;
-  return plane.inverse_depth >= range.farthest && plane.inverse_depth <= range.nearest && plane.slope_x >= -limit &&
-         plane.slope_x <= limit && plane.slope_y >= -limit && plane.slope_y <= limit;
+  return (plane.inverse_depth >= range.farthest) & (plane.inverse_depth <= range.nearest) & (plane.slope_x >= -limit) &
+         (plane.slope_x <= limit) & (plane.slope_y >= -limit) & (plane.slope_y <= limit);
 }
 
 /// False if a plane can no longer exceed the least confidence with the votes, whatever the neighbors that are left say.

@@ -10,6 +10,7 @@
 
 #include "engine/core/clock.h"
 #include "engine/depth/first_planes.h"
+#include "engine/depth/propose_planes.h"
 #include "engine/depth/score_planes.h"
 #include "engine/depth/support_windows.h"
 #include "engine/depth/sweep_tile.h"
@@ -22,10 +23,25 @@ struct Refinement {
   const SweepTask& task;
   PlaneScorer scorer;
   Grid<InverseDepthRange> ranges;
-  Grid<PixelPlane> last;  ///< of the last round
-  Grid<PixelPlane> best;  ///< so far
+  PlaneGrid last;           ///< of the last round
+  PlaneGrid best;           ///< so far
+  Grid<float> correlation;  ///< of the best ones, as what follows
+  Grid<float> confidence;
   std::atomic<std::uint64_t> trials = 0;
   std::atomic<std::uint64_t> samples = 0;
+
+  [[nodiscard]] PixelPlane plane(std::size_t pixel) const {
+    return {best.inverse_depth.values[pixel], best.slope_x.values[pixel], best.slope_y.values[pixel],
+            correlation.values[pixel],        confidence.values[pixel],   best.taken_by.values[pixel]};
+  }
+  void take(int x, int y, const PixelPlane& plane) {
+    best.inverse_depth.at(x, y) = plane.inverse_depth;
+    best.slope_x.at(x, y) = plane.slope_x;
+    best.slope_y.at(x, y) = plane.slope_y;
+    best.taken_by.at(x, y) = plane.taken_by;
+    correlation.at(x, y) = plane.correlation;
+    confidence.at(x, y) = plane.confidence;
+  }
 };
 
 /// Scores a batch that the move with this number made, and takes the winners.
@@ -37,23 +53,30 @@ void take_winners(const TileSupports& supports, int move, PlaneBatch& batch, Ref
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
     const PlaneTrial trial{batch.inverse_depth[i], batch.slope_x[i], batch.slope_y[i], batch.ncc_sum[i],
                            batch.votes[i]};
-    refinement.best.at(batch.x[i], batch.y[i]) = taken_plane(trial, refinement.scorer.rule, move);
+    refinement.take(batch.x[i], batch.y[i], taken_plane(trial, refinement.scorer.rule, move));
   }
   batch.count = 0;
 }
 
-/// Tries the plane that trial(x, y) gives at every pixel of a tile that may take it. move: its number.
-template <typename Trial>
-void try_planes(const Tile& tile, const TileSupports& supports, int move, const Trial& trial, Refinement& refinement) {
+/// Tries the planes that propose(x, y, count) gives to pixels of a tile, some of a row at a time. move: its
+/// number.
+template <typename Propose>
+void try_planes(const Tile& tile, const TileSupports& supports, int move, const Propose& propose,
+                Refinement& refinement) {
   thread_local const auto batch = std::make_unique<PlaneBatch>();
   for (int y = tile.y; y < tile.y_end; ++y) {
-    for (int x = tile.x; x < tile.x_end; ++x) {
-      const InverseDepthRange& range = refinement.ranges.at(x, y);
-      if (range.farthest > range.nearest) continue;
-      const PlaneTrial plane = trial(x, y);
-      if (plane.inverse_depth == 0.0F || !may_take(plane, range, refinement.task.max_tilt)) continue;
-      batch->add(x, y, plane, refinement.best.at(x, y).confidence);
-      if (batch->full()) take_winners(supports, move, *batch, refinement);
+    for (int x = tile.x; x < tile.x_end; x += PlaneProposals::kCapacity) {
+      const int count = std::min(tile.x_end - x, PlaneProposals::kCapacity);
+      const PlaneProposals& proposals = propose(x, y, count);
+      const float* confidence = refinement.confidence.row(y) + x;
+      for (int i = 0; i < count; ++i) {
+        const auto place = static_cast<std::size_t>(i);
+        if (proposals.may_take[place] == 0) continue;
+        batch->add(x + i, y,
+                   {proposals.inverse_depth[place], proposals.slope_x[place], proposals.slope_y[place], 0.0F, 0},
+                   confidence[i]);
+        if (batch->full()) take_winners(supports, move, *batch, refinement);
+      }
     }
   }
   take_winners(supports, move, *batch, refinement);
@@ -102,10 +125,34 @@ Eigen::Vector3f plane_normal(const PixelPlane& plane, double x, double y, const 
 }
 
 void end_round(Refinement& refinement) {
-  tbb::parallel_for(std::size_t{0}, refinement.best.values.size(), [&](std::size_t pixel) {
-    refinement.last.values[pixel] = refinement.best.values[pixel];
-    refinement.best.values[pixel].taken_by = 0;
+  const auto width = static_cast<std::size_t>(refinement.ranges.width);
+  tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(refinement.ranges.height), [&](std::size_t row) {
+    const auto copy = [&](const auto& from, auto& to) {
+      std::copy_n(from.values.begin() + static_cast<std::ptrdiff_t>(row * width), width,
+                  to.values.begin() + static_cast<std::ptrdiff_t>(row * width));
+    };
+    copy(refinement.best.inverse_depth, refinement.last.inverse_depth);
+    copy(refinement.best.slope_x, refinement.last.slope_x);
+    copy(refinement.best.slope_y, refinement.last.slope_y);
+    copy(refinement.best.taken_by, refinement.last.taken_by);
+    std::fill_n(refinement.best.taken_by.values.begin() + static_cast<std::ptrdiff_t>(row * width), width, 0);
   });
+}
+
+/// The planes to begin with, as far as the pixels may take them. Until this thread's next call.
+const PlaneProposals& propose_first(const Grid<PlaneTrial>& fitted, const Refinement& refinement, int x, int y,
+                                    int count) {
+  thread_local PlaneProposals proposals;
+  for (int i = 0; i < count; ++i) {
+    const PlaneTrial& plane = fitted.at(x + i, y);
+    const auto place = static_cast<std::size_t>(i);
+    proposals.inverse_depth[place] = plane.inverse_depth;
+    proposals.slope_x[place] = plane.slope_x;
+    proposals.slope_y[place] = plane.slope_y;
+    proposals.may_take[place] = static_cast<std::int32_t>(
+        plane.inverse_depth != 0.0F && may_take(plane, refinement.ranges.at(x + i, y), refinement.task.max_tilt));
+  }
+  return proposals;
 }
 
 }  // namespace
@@ -117,25 +164,30 @@ Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& fir
   const int height = first_pass.height;
   const Grid<SupportWindow> windows =
       make_support_windows(*task.reference, task.options.window, task.options.support_tolerance, cpu.simd);
-  Refinement refinement{task, make_plane_scorer(task, windows, cpu.simd), inverse_depth_ranges(task),
-                        Grid<PixelPlane>(width, height, kNoPlane), Grid<PixelPlane>(width, height, kNoPlane)};
+  Refinement refinement{task,
+                        make_plane_scorer(task, windows, cpu.simd),
+                        inverse_depth_ranges(task),
+                        PlaneGrid(width, height),
+                        PlaneGrid(width, height),
+                        Grid<float>(width, height),
+                        Grid<float>(width, height)};
   const Grid<PlaneTrial> fitted = first_planes(task, first_pass);
   for_each_tile(refinement, cpu, [&](const Tile& tile, const TileSupports& supports) {
-    try_planes(
-        tile, supports, 1, [&](int x, int y) { return fitted.at(x, y); }, refinement);
+    const auto propose = [&](int x, int y, int count) -> const PlaneProposals& {
+      return propose_first(fitted, refinement, x, y, count);
+    };
+    try_planes(tile, supports, 1, propose, refinement);
   });
   end_round(refinement);
   for (const std::vector<PlaneMove>& round : plane_rounds(task.planes, task.options.window)) {
     for_each_tile(refinement, cpu, [&](const Tile& tile, const TileSupports& supports) {
       int number = 0;
       for (const PlaneMove& move : round) {
-        const auto trial = [&](int x, int y) {
-          const int other_x = x + move.offset_x;
-          const int other_y = y + move.offset_y;
-          const bool inside = refinement.last.contains(other_x, other_y);
-          return move_plane(move, refinement.best.at(x, y), inside ? refinement.last.at(other_x, other_y) : kNoPlane);
+        const auto propose = [&](int x, int y, int count) -> const PlaneProposals& {
+          return propose_planes(move, refinement.last, refinement.best, refinement.ranges, task.max_tilt, x, y, count,
+                                cpu.simd);
         };
-        try_planes(tile, supports, ++number, trial, refinement);
+        try_planes(tile, supports, ++number, propose, refinement);
       }
     });
     end_round(refinement);
@@ -145,7 +197,9 @@ Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& fir
     work->samples += refinement.samples;
     work->cpu_seconds += foreground_cpu_seconds() - cpu_start;
   }
-  return std::move(refinement.best);
+  Grid<PixelPlane> planes(width, height, kNoPlane);
+  for (std::size_t pixel = 0; pixel < planes.values.size(); ++pixel) planes.values[pixel] = refinement.plane(pixel);
+  return planes;
 }
 
 DepthMap depth_map_from_planes(const Grid<PixelPlane>& planes, const SweepTask& task) {

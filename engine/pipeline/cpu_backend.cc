@@ -68,7 +68,7 @@ Expected<DepthMap> CpuBackend::sweep_depth(const SweepTask& task) {
 }
 
 Expected<Grid<float>> CpuBackend::confirm_depths(const ConfirmTask& task) {
-  return timed("confirm_depths", [&] { return quorum::confirm_depths(task); });
+  return timed("confirm_depths", [&] { return quorum::confirm_depths(task, options_.simd); });
 }
 
 Expected<void> CpuBackend::begin_volume(const VoxelGrid& grid, const FusionOptions& options) {

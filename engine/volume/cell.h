@@ -10,10 +10,10 @@ namespace quorum {
 constexpr float kDiagonal = 1.41421356F;
 
 /// True if both depths exist and differ by no more than the slope allows over pixels of image distance.
-inline bool joined(float a, float b, float max_step, float pixels) {
+[[gnu::always_inline]] inline bool joined(float a, float b, float max_step, float pixels) {
   const float nearer = a < b ? a : b;
   const float difference = a < b ? b - a : a - b;
-  return nearer > 0.0F && difference <= (max_step * nearer) * pixels;
+  return (nearer > 0.0F) & (difference <= (max_step * nearer) * pixels);
 }
 
 /// True if a cell with these depths at its corners is split from corner 0 to corner 3: the shorter diagonal.

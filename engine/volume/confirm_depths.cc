@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
+#include <cstdint>
+#include <memory>
 
 #include "engine/core/check.h"
 #include "engine/core/exact.h"
@@ -14,27 +15,6 @@
 
 namespace quorum {
 namespace {
-
-/// Depth of a view's surface at (u, v), which lies between four of its pixels. Twin: surface_depth in
-/// shaders/confirm_depths.comp.
-float surface_depth(const Grid<float>& depth, float u, float v, float max_step) {
-  const int x = static_cast<int>(u);
-  const int y = static_cast<int>(v);
-  const float fx = u - static_cast<float>(x);
-  const float fy = v - static_cast<float>(y);
-  const float* upper = depth.row(y) + x;
-  const float* lower = upper + depth.width;
-  const float d0 = upper[0];
-  const float d1 = upper[1];
-  const float d2 = lower[0];
-  const float d3 = lower[1];
-  const bool whole = joined(d0, d1, max_step, 1.0F) && joined(d0, d2, max_step, 1.0F) &&
-                     joined(d1, d3, max_step, 1.0F) && joined(d2, d3, max_step, 1.0F);
-  if (!whole) return fy < 0.5F ? (fx < 0.5F ? d0 : d1) : (fx < 0.5F ? d2 : d3);
-  const float top = d0 + fx * (d1 - d0);
-  const float bottom = d2 + fx * (d3 - d2);
-  return top + fy * (bottom - top);
-}
 
 /// A depth of a view in another: position in pixels and depth, which say nothing unless z > 0.
 struct SeenPoint {
@@ -56,9 +36,9 @@ struct SeenPoint {
 }
 
 /// Whether a point lies between four pixels of an image.
-bool is_in_a_cell(const SeenPoint& point, int width, int height) {
-  return point.z > 0.0F && point.u >= 0.0F && point.v >= 0.0F && point.u < static_cast<float>(width - 1) &&
-         point.v < static_cast<float>(height - 1);
+[[gnu::always_inline]] inline bool is_in_a_cell(const SeenPoint& point, int width, int height) {
+  return (point.z > 0.0F) & (point.u >= 0.0F) & (point.v >= 0.0F) & (point.u < static_cast<float>(width - 1)) &
+         (point.v < static_cast<float>(height - 1));
 }
 
 /// True if the view looks through the other's depth at pixel (x, y): some of the four pixels around its projection have
@@ -74,28 +54,111 @@ bool looks_through(const Grid<float>& depth, const ConfirmDepthsParams& params, 
   return any && is_behind(upper[0]) && is_behind(upper[1]) && is_behind(lower[0]) && is_behind(lower[1]);
 }
 
-/// What the other view says of a depth of this certainty that it has at a point. Twin: support_of in
-/// shaders/confirm_depths.comp.
-int support_of(const ViewDepths& view, const ViewDepths& other, const ConfirmDepthsParams& params,
-               const SeenPoint& point, float certainty) {
-  if (!is_in_a_cell(point, params.other_width, params.other_height)) return 0;
-  const float seen = surface_depth(other.depth, point.u, point.v, params.other_max_step);
-  if (!(seen > 0.0F)) return 0;
-  const float footprint = params.other_footprint * point.z;
-  const float behind = seen - point.z;
-  const float apart = behind < 0.0F ? -behind : behind;
-  int support = (behind > kLooksThrough * footprint ? kSupportOfLookingThrough : 0) +
-                (apart <= kAgreement * footprint ? kSupportOfAgreement : 0) +
-                (apart <= kCloseAgreement * footprint ? kSupportOfAgreement : 0);
-  if ((params.steps & kFindsDenials) != 0U && -behind > kLooksThrough * footprint) {
-    const int x = static_cast<int>(point.u + 0.5F);
-    const int y = static_cast<int>(point.v + 0.5F);
-    const float front = other.depth.at(x, y);
-    if (front > 0.0F && point.z - front > kLooksThrough * footprint && other.certainty.at(x, y) > certainty &&
-        looks_through(view.depth, params, x, y, front))
-      support += kSupportOfDenial;
+constexpr int kPixels = 64;  // of a row, side by side
+
+template <typename T>
+using Lanes = std::array<T, kPixels>;
+
+/// Pixels of a view's row, and what the other view says of their depths.
+struct ConfirmLanes {
+  Lanes<float> depth;
+  Lanes<float> u, v, z;      ///< SeenPoint
+  Lanes<std::int32_t> cell;  ///< of the other view, in which the point lies; 0 if in none
+  Lanes<std::int32_t> is_in_cell;
+  std::array<Lanes<float>, 4> corner;  ///< depths of the cell
+  Lanes<std::int32_t> said;
+  Lanes<std::int32_t> asks;  ///< 1: the other view sees something in front
+};
+
+/// Where the depths of row y from x on lie in the other view.
+[[gnu::always_inline]] inline void see_lanes(const ConfirmDepthsParams& params, int x, int y, int count,
+                                             ConfirmLanes& lanes) {
+  const PlaneWarp warp = params.warp;
+  const int width = params.other_width;
+  const int height = params.other_height;
+  for (int i = 0; i < count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const SeenPoint point = see_from(warp, static_cast<float>(x + i), static_cast<float>(y), lanes.depth[k]);
+    const bool inside = (lanes.depth[k] > 0.0F) & is_in_a_cell(point, width, height);
+    lanes.u[k] = kept_if(inside, point.u);
+    lanes.v[k] = kept_if(inside, point.v);
+    lanes.z[k] = kept_if(inside, point.z);
+    lanes.cell[k] = static_cast<int>(lanes.v[k]) * width + static_cast<int>(lanes.u[k]);
+    lanes.is_in_cell[k] = static_cast<std::int32_t>(inside);
   }
-  return support;
+}
+
+/// What the other view says of the depths. Twin: support_of in shaders/confirm_depths.comp.
+[[gnu::always_inline]] inline void weigh_lanes(const ConfirmDepthsParams& params, int count, ConfirmLanes& lanes) {
+  const float max_step = params.other_max_step;
+  const float share = params.other_footprint;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const float fx = lanes.u[k] - static_cast<float>(static_cast<int>(lanes.u[k]));
+    const float fy = lanes.v[k] - static_cast<float>(static_cast<int>(lanes.v[k]));
+    const float d0 = lanes.corner[0][k];
+    const float d1 = lanes.corner[1][k];
+    const float d2 = lanes.corner[2][k];
+    const float d3 = lanes.corner[3][k];
+    // Depth of the other view's surface at (u, v): interpolated in a cell without a step, else that of the nearest
+    // pixel.
+    const bool whole = joined(d0, d1, max_step, 1.0F) & joined(d0, d2, max_step, 1.0F) &
+                       joined(d1, d3, max_step, 1.0F) & joined(d2, d3, max_step, 1.0F);
+    const float nearest = fy < 0.5F ? (fx < 0.5F ? d0 : d1) : (fx < 0.5F ? d2 : d3);
+    const float top = d0 + fx * (d1 - d0);
+    const float bottom = d2 + fx * (d3 - d2);
+    const float interpolated = top + fy * (bottom - top);
+    const float seen = whole ? interpolated : nearest;
+    const bool sees = (lanes.is_in_cell[k] != 0) & (seen > 0.0F);
+    const float footprint = share * lanes.z[k];
+    const float behind = seen - lanes.z[k];
+    const float apart = behind < 0.0F ? -behind : behind;
+    const auto add = [](bool condition, int support) { return static_cast<int>(condition) * support; };
+    const int support = add(behind > kLooksThrough * footprint, kSupportOfLookingThrough) +
+                        add(apart <= kAgreement * footprint, kSupportOfAgreement) +
+                        add(apart <= kCloseAgreement * footprint, kSupportOfAgreement);
+    lanes.said[k] = add(sees, support);
+    lanes.asks[k] = static_cast<std::int32_t>(sees & (-behind > kLooksThrough * footprint));
+  }
+}
+
+/// Whether the depth of this certainty at pixel (x, y) looks through a surer one of the other view, which sees it at a
+/// point.
+bool is_denied(const ViewDepths& view, const ViewDepths& other, const ConfirmDepthsParams& params,
+               const SeenPoint& point, float certainty) {
+  const float footprint = params.other_footprint * point.z;
+  const int x = static_cast<int>(point.u + 0.5F);
+  const int y = static_cast<int>(point.v + 0.5F);
+  const float front = other.depth.at(x, y);
+  return front > 0.0F && point.z - front > kLooksThrough * footprint && other.certainty.at(x, y) > certainty &&
+         looks_through(view.depth, params, x, y, front);
+}
+
+/// Some pixels of a row.
+void confirm_lanes(const ViewDepths& view, const ViewDepths& other, const ConfirmDepthsParams& params, int x, int y,
+                   int count, SimdLevel simd, int* support) {
+  thread_local const auto lanes = std::make_unique<ConfirmLanes>();
+  std::copy_n(view.depth.row(y) + x, count, lanes->depth.begin());
+  simd_form<see_lanes>(simd)(params, x, y, count, *lanes);
+  const float* depth = other.depth.values.data();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const float* upper = depth + lanes->cell[k];
+    const float* lower = upper + other.depth.width;
+    lanes->corner[0][k] = upper[0];
+    lanes->corner[1][k] = upper[1];
+    lanes->corner[2][k] = lower[0];
+    lanes->corner[3][k] = lower[1];
+  }
+  simd_form<weigh_lanes>(simd)(params, count, *lanes);
+  const bool finds_denials = (params.steps & kFindsDenials) != 0U;
+  const bool adds = (params.steps & kFirstOfViews) == 0U;
+  for (int i = 0; i < count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    int said = lanes->said[k];
+    if (finds_denials && lanes->asks[k] != 0 &&
+        is_denied(view, other, params, {lanes->u[k], lanes->v[k], lanes->z[k]}, view.certainty.at(x + i, y)))
+      said += kSupportOfDenial;
+    support[i] = (adds ? support[i] : 0) + said;
+  }
 }
 
 }  // namespace
@@ -119,24 +182,15 @@ ConfirmDepthsParams make_confirm_depths_params(const ConfirmTask& task, std::siz
           (other == 0 ? kFirstOfViews : 0U) | (has_certainties ? kFindsDenials : 0U)};
 }
 
-void confirm_depths(const ViewDepths& view, const ViewDepths& other, const ConfirmDepthsParams& params,
+void confirm_depths(const ViewDepths& view, const ViewDepths& other, const ConfirmDepthsParams& params, SimdLevel simd,
                     Grid<int>& support) {
-  const bool finds_denials = (params.steps & kFindsDenials) != 0U;
-  const bool adds = (params.steps & kFirstOfViews) == 0U;
+  if (other.depth.width < 2 || other.depth.height < 2) {  // has no cell
+    if ((params.steps & kFirstOfViews) != 0U) std::ranges::fill(support.values, 0);
+    return;
+  }
   tbb::parallel_for(0, params.height, [&](int y) {
-    thread_local std::vector<SeenPoint> points;
-    points.resize(static_cast<std::size_t>(params.width));
-    const float* depth = view.depth.row(y);
-    int* sums = support.row(y);
-    for (int x = 0; x < params.width; ++x)
-      points[static_cast<std::size_t>(x)] =
-          see_from(params.warp, static_cast<float>(x), static_cast<float>(y), depth[x]);
-    for (int x = 0; x < params.width; ++x) {
-      const float certainty = finds_denials ? view.certainty.at(x, y) : 0.0F;
-      const int said =
-          depth[x] > 0.0F ? support_of(view, other, params, points[static_cast<std::size_t>(x)], certainty) : 0;
-      sums[x] = (adds ? sums[x] : 0) + said;
-    }
+    for (int x = 0; x < params.width; x += kPixels)
+      confirm_lanes(view, other, params, x, y, std::min(kPixels, params.width - x), simd, support.row(y) + x);
   });
 }
 
@@ -161,11 +215,11 @@ Grid<float> certainty_map(const Grid<float>& depth, const Grid<int>& support) {
   return certainty;
 }
 
-Grid<float> confirm_depths(const ConfirmTask& task) {
+Grid<float> confirm_depths(const ConfirmTask& task, SimdLevel simd) {
   const Grid<float>& depth = task.view->depth;
   Grid<int> support(depth.width, depth.height);
   for (std::size_t other = 0; other < task.others.size(); ++other)
-    confirm_depths(*task.view, *task.others[other], make_confirm_depths_params(task, other), support);
+    confirm_depths(*task.view, *task.others[other], make_confirm_depths_params(task, other), simd, support);
   return certainty_map(depth, support);
 }
 

@@ -17,6 +17,7 @@
 
 #include "engine/camera/camera.h"
 #include "engine/core/grid.h"
+#include "engine/core/simd.h"
 #include "engine/depth/depth_map.h"
 #include "engine/volume/fusion_options.h"
 #include "shaders/layout.h"
@@ -49,7 +50,7 @@ ConfirmDepthsParams make_confirm_depths_params(const ConfirmTask& task, std::siz
 /// nearest depth lies more than kLooksThrough in front of the point, is more certain, and projects into a cell of the
 /// view whose depths lie all more than kLooksThrough behind it. 0 where the view has no depth. support: of the view's
 /// size.
-void confirm_depths(const ViewDepths& view, const ViewDepths& other, const ConfirmDepthsParams& params,
+void confirm_depths(const ViewDepths& view, const ViewDepths& other, const ConfirmDepthsParams& params, SimdLevel simd,
                     Grid<int>& support);
 
 /// The share of depths of this support that lay within a pixel's footprint of the true surface; in 1/256, 0..1. 0 of
@@ -59,7 +60,7 @@ float certainty_of(int support);
 /// The certainty of each depth from its support; 0 where there is no depth.
 Grid<float> certainty_map(const Grid<float>& depth, const Grid<int>& support);
 
-/// The certainty of a view's depths, on the CPU.
-Grid<float> confirm_depths(const ConfirmTask& task);
+/// The certainty of a view's depths, on the CPU. Equal at every SIMD level.
+Grid<float> confirm_depths(const ConfirmTask& task, SimdLevel simd = best_simd_level());
 
 }  // namespace quorum

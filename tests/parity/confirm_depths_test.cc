@@ -51,7 +51,7 @@ TEST_F(ConfirmDepthsParity, NoisyMapsGiveTheBytesOfTheTwin) {
         run(confirm, {depth.width, depth.height}, params,
             {buffer_of(depth.values), buffer_of(seen_by.depth.values), certainty,
              buffer_of(denies ? seen_by.certainty.values : seen_by.depth.values), support});
-        confirm_depths(*task.view, seen_by, params, twin);
+        confirm_depths(*task.view, seen_by, params, best_simd_level(), twin);
         ASSERT_TRUE(same_words(content<std::int32_t>(support), twin.values, depth.width,
                                fmt::format("seed {} other view {} denies {}", seed, other, denies)));
       }

@@ -29,7 +29,7 @@ std::shared_ptr<const ViewDepths> plane_seen_from(double x, double depth) {
 int support_by(double other_depth) {
   const ConfirmTask task{plane_seen_from(0, kDepth), {plane_seen_from(0.1, other_depth)}, {}};
   Grid<int> support(kSide, kSide);
-  confirm_depths(*task.view, *task.others[0], make_confirm_depths_params(task, 0), support);
+  confirm_depths(*task.view, *task.others[0], make_confirm_depths_params(task, 0), best_simd_level(), support);
   return support.at(kCenter, kCenter);
 }
 
@@ -55,13 +55,13 @@ TEST(ConfirmDepths, WhatAnotherViewDoesNotSeeItDoesNotSupport) {
   // The other view is 0.3 to the right: 15 pixels of the plane's left part leave its image.
   const ConfirmTask task{plane_seen_from(0, kDepth), {plane_seen_from(0.3, kDepth)}, {}};
   Grid<int> support(kSide, kSide);
-  confirm_depths(*task.view, *task.others[0], make_confirm_depths_params(task, 0), support);
+  confirm_depths(*task.view, *task.others[0], make_confirm_depths_params(task, 0), best_simd_level(), support);
   EXPECT_EQ(support.at(14, kCenter), 0);
   EXPECT_EQ(support.at(16, kCenter), 4);
   // It is behind the plane and looks away.
   ConfirmTask behind = task;
   changed(behind.others[0]).camera.translation = {0, 0, -3};
-  confirm_depths(*behind.view, *behind.others[0], make_confirm_depths_params(behind, 0), support);
+  confirm_depths(*behind.view, *behind.others[0], make_confirm_depths_params(behind, 0), best_simd_level(), support);
   EXPECT_EQ(support.at(kCenter, kCenter), 0);
 }
 
@@ -78,7 +78,7 @@ TEST(ConfirmDepths, ASlantedSurfaceIsInterpolated) {
   ConfirmDepthsParams params = make_confirm_depths_params(task, 0);
   params.footprint *= 0.02F;  // agreement to a hundredth of a footprint
   Grid<int> support(kSide, kSide);
-  confirm_depths(*task.view, *task.others[0], params, support);
+  confirm_depths(*task.view, *task.others[0], params, best_simd_level(), support);
   for (int x = 10; x < 30; ++x) EXPECT_EQ(support.at(x, kCenter), 4) << x;
 }
 
