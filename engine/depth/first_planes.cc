@@ -1,5 +1,7 @@
 #include "engine/depth/first_planes.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 
 #include "engine/depth/fit_planes.h"
@@ -18,13 +20,15 @@ Grid<PlaneTrial> first_planes(const SweepTask& task, const Grid<PixelVote>& firs
     return plane.inverse_depth > 0.0F && plane.correlation > first_pass.at(x, y).correlation;
   };
   Grid<PixelVote> inside = first_pass;
-  for (int y = 0; y < inside.height; ++y)
+  tbb::parallel_for(0, inside.height, [&](int y) {
     for (int x = 0; x < inside.width; ++x)
       if (prefers_outside(x, y)) inside.at(x, y) = kNoVote;
+  });
   Grid<PlaneTrial> planes = fit_planes(inside, task.planes);
-  for (int y = 0; y < planes.height; ++y)
+  tbb::parallel_for(0, planes.height, [&](int y) {
     for (int x = 0; x < planes.width; ++x)
       if (prefers_outside(x, y)) planes.at(x, y) = {outside_of(x, y).inverse_depth, 0.0F, 0.0F, 0.0F, 0};
+  });
   return planes;
 }
 

@@ -1,5 +1,7 @@
 #include "engine/depth/half_size.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -26,10 +28,12 @@ DepthPlanes half_planes(const DepthPlanes& planes) {
 /// Half pixels with a pixel that is swept and has no depth.
 Grid<std::uint8_t> missing_pixels(const SweepTask& task, const DepthMap& full, int width, int height) {
   Grid<std::uint8_t> missing(width, height);
-  for (int y = 0; y < 2 * height; ++y)
-    for (int x = 0; x < 2 * width; ++x)
-      if (full.depth.at(x, y) == 0.0F && task.ranges.at(x, y).first <= task.ranges.at(x, y).last)
-        missing.at(x / 2, y / 2) = 1;
+  tbb::parallel_for(0, height, [&](int row) {
+    for (const int y : {2 * row, 2 * row + 1})
+      for (int x = 0; x < 2 * width; ++x)
+        if (full.depth.at(x, y) == 0.0F && task.ranges.at(x, y).first <= task.ranges.at(x, y).last)
+          missing.at(x / 2, row) = 1;
+  });
   return missing;
 }
 
@@ -37,14 +41,15 @@ Grid<std::uint8_t> missing_pixels(const SweepTask& task, const DepthMap& full, i
 Grid<std::uint8_t> grown(const Grid<std::uint8_t>& pixels, int reach) {
   Grid<std::uint8_t> rows(pixels.width, pixels.height);
   Grid<std::uint8_t> all(pixels.width, pixels.height);
-  for (int y = 0; y < pixels.height; ++y)
+  tbb::parallel_for(0, pixels.height, [&](int y) {
     for (int x = 0; x < pixels.width; ++x)
       if (pixels.at(x, y) != 0)
         for (int u = std::max(x - reach, 0); u <= std::min(x + reach, pixels.width - 1); ++u) rows.at(u, y) = 1;
-  for (int y = 0; y < pixels.height; ++y)
-    for (int x = 0; x < pixels.width; ++x)
-      if (rows.at(x, y) != 0)
-        for (int v = std::max(y - reach, 0); v <= std::min(y + reach, pixels.height - 1); ++v) all.at(x, v) = 1;
+  });
+  tbb::parallel_for(0, pixels.height, [&](int y) {
+    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, pixels.height - 1); ++v)
+      for (int x = 0; x < pixels.width; ++x) all.at(x, y) |= rows.at(x, v);
+  });
   return all;
 }
 
@@ -95,9 +100,10 @@ SweepTask make_half_task(const SweepTask& task, const DepthMap& full, const View
   const Grid<std::uint8_t> wanted = grown(missing_pixels(task, full, width, height), kGrown);
   const auto last_plane = static_cast<uint>(half.planes.depth.size() - 1);
   half.ranges = Grid<PlaneRange>(width, height, PlaneRange{1, 0});
-  for (int y = radius; y < height - radius; ++y)
+  tbb::parallel_for(radius, std::max(height - radius, radius), [&](int y) {
     for (int x = radius; x < width - radius; ++x)
       if (wanted.at(x, y) != 0) half.ranges.at(x, y) = half_range(task, x, y, last_plane);
+  });
   return half;
 }
 
@@ -106,7 +112,7 @@ void take_from_half(const SweepTask& task, const SweepTask& half, const DepthMap
   const float most_difference = 4.0F * half.planes.step();
   const Eigen::Matrix3d rays = task.intrinsics.inverse();
   const Eigen::Matrix3d half_rays = half.intrinsics.inverse();
-  for (int y = 0; y < coarse.depth.height; ++y) {
+  tbb::parallel_for(0, coarse.depth.height, [&](int y) {
     for (int x = 0; x < coarse.depth.width; ++x) {
       if (coarse.depth.at(x, y) == 0.0F || !is_inside_patch(coarse, x, y, most_difference)) continue;
       const Eigen::Vector3d normal = coarse.normal.at(x, y).cast<double>();
@@ -125,7 +131,7 @@ void take_from_half(const SweepTask& task, const SweepTask& half, const DepthMap
         }
       }
     }
-  }
+  });
 }
 
 }  // namespace quorum

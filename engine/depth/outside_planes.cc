@@ -1,5 +1,7 @@
 #include "engine/depth/outside_planes.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -58,7 +60,7 @@ SweepTask make_outside_task(const SweepTask& task, const View& reference, const 
   const Eigen::Matrix3d world_from_pixel = camera.camera_from_world.transpose() * camera.intrinsics.inverse();
   const auto last = static_cast<uint>(coarse.planes.depth.size() - 1);
   const int radius = coarse.options.window / 2;
-  for (int y = radius; y < height - radius; ++y) {
+  tbb::parallel_for(radius, std::max(height - radius, radius), [&](int y) {
     for (int x = radius; x < width - radius; ++x) {
       if (swept.at(x, y) == 0) continue;
       const RaySpan span = ray_in_box(origin, world_from_pixel * Eigen::Vector3d(x, y, 1.0), bounds);
@@ -66,7 +68,7 @@ SweepTask make_outside_task(const SweepTask& task, const View& reference, const 
       const auto first = begin == coarse.planes.depth.begin() ? begin : begin - 1;
       coarse.ranges.at(x, y) = {static_cast<uint>(first - coarse.planes.depth.begin()), last};
     }
-  }
+  });
   return coarse;
 }
 
@@ -77,7 +79,7 @@ Grid<OutsidePlane> outside_planes(const SweepTask& coarse, const DepthMap& map, 
   const Eigen::Matrix3d world_from_pixel = camera.camera_from_world.transpose() * camera.intrinsics.inverse();
   const double step = coarse.planes.step();
   Grid<OutsidePlane> outside(map.depth.width, map.depth.height);
-  for (int y = 0; y < outside.height; ++y) {
+  tbb::parallel_for(0, outside.height, [&](int y) {
     for (int x = 0; x < outside.width; ++x) {
       const double depth = map.depth.at(x, y);
       if (depth <= 0.0) continue;
@@ -85,7 +87,7 @@ Grid<OutsidePlane> outside_planes(const SweepTask& coarse, const DepthMap& map, 
       if (!span.empty() && 1.0 / depth >= 1.0 / span.leave - step) continue;
       outside.at(x, y) = {static_cast<float>(1.0 / depth), map.correlation.at(x, y)};
     }
-  }
+  });
   return outside;
 }
 

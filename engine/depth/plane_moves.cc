@@ -1,5 +1,7 @@
 #include "engine/depth/plane_moves.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -32,11 +34,11 @@ Grid<InverseDepthRange> inverse_depth_ranges(const SweepTask& task) {
   const std::vector<float>& inverse_depth = task.planes.inverse_depth;
   const bool ends = task.outside.values.empty();
   Grid<InverseDepthRange> result(task.ranges.width, task.ranges.height, {1.0F, 0.0F});
-  for (std::size_t pixel = 0; pixel < task.ranges.values.size(); ++pixel) {
+  tbb::parallel_for(std::size_t{0}, task.ranges.values.size(), [&](std::size_t pixel) {
     const PlaneRange& range = task.ranges.values[pixel];
     if (range.first <= range.last)
       result.values[pixel] = {ends ? inverse_depth[range.last] : 0.0F, inverse_depth[range.first]};
-  }
+  });
   return result;
 }
 

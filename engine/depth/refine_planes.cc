@@ -198,7 +198,8 @@ Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& fir
     work->cpu_seconds += foreground_cpu_seconds() - cpu_start;
   }
   Grid<PixelPlane> planes(width, height, kNoPlane);
-  for (std::size_t pixel = 0; pixel < planes.values.size(); ++pixel) planes.values[pixel] = refinement.plane(pixel);
+  tbb::parallel_for(std::size_t{0}, planes.values.size(),
+                    [&](std::size_t pixel) { planes.values[pixel] = refinement.plane(pixel); });
   return planes;
 }
 
@@ -206,17 +207,17 @@ DepthMap depth_map_from_planes(const Grid<PixelPlane>& planes, const SweepTask& 
   DepthMap map{Grid<float>(planes.width, planes.height), Grid<float>(planes.width, planes.height),
                Grid<float>(planes.width, planes.height),
                Grid<Eigen::Vector3f>(planes.width, planes.height, Eigen::Vector3f::Zero())};
-  for (std::size_t pixel = 0; pixel < planes.values.size(); ++pixel) {
+  tbb::parallel_for(std::size_t{0}, planes.values.size(), [&](std::size_t pixel) {
     const PixelPlane& plane = planes.values[pixel];
-    if (plane.inverse_depth == 0.0F) continue;
-    if (plane.inverse_depth < task.planes.inverse_depth[task.ranges.values[pixel].last]) continue;  // beyond the bounds
+    if (plane.inverse_depth == 0.0F) return;
+    if (plane.inverse_depth < task.planes.inverse_depth[task.ranges.values[pixel].last]) return;  // beyond the bounds
     map.depth.values[pixel] = reciprocal(plane.inverse_depth);
     map.correlation.values[pixel] = plane.correlation;
     map.confidence.values[pixel] = std::min(plane.confidence, 1.0F);
     const auto width = static_cast<std::size_t>(planes.width);
     map.normal.values[pixel] =
         plane_normal(plane, static_cast<double>(pixel % width), static_cast<double>(pixel / width), task.intrinsics);
-  }
+  });
   return map;
 }
 

@@ -210,8 +210,9 @@ float certainty_of(int support) {
 
 Grid<float> certainty_map(const Grid<float>& depth, const Grid<int>& support) {
   Grid<float> certainty(depth.width, depth.height);
-  for (std::size_t pixel = 0; pixel < depth.values.size(); ++pixel)
+  tbb::parallel_for(std::size_t{0}, depth.values.size(), [&](std::size_t pixel) {
     if (depth.values[pixel] > 0.0F) certainty.values[pixel] = certainty_of(support.values[pixel]);
+  });
   return certainty;
 }
 
