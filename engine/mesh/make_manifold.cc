@@ -1,7 +1,11 @@
 #include "engine/mesh/make_manifold.h"
 
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_sort.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <tuple>
 
 #include "engine/mesh/disjoint_sets.h"
@@ -27,16 +31,18 @@ bool has_area(const Mesh& mesh, const Triangle& triangle) {
 
 /// Joins the corners at one place of each triangle without area, and drops those triangles.
 void drop_flat_triangles(Mesh& mesh) {
+  std::atomic<bool> found = false;
+  tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t t) {
+    if (!has_area(mesh, mesh.triangles[t])) found = true;
+  });
+  if (!found) return;
   DisjointSets places(mesh.vertices.size());
   const auto position = [&](std::uint32_t v) -> const Eigen::Vector3f& { return mesh.vertices[v].position; };
-  bool found = false;
   for (const Triangle& triangle : mesh.triangles) {
     if (has_area(mesh, triangle)) continue;
-    found = true;
     for (const auto& [a, b] : {std::pair{0U, 1U}, {1U, 2U}, {2U, 0U}})
       if (position(triangle[a]) == position(triangle[b])) places.join(triangle[a], triangle[b]);
   }
-  if (!found) return;
   for (Triangle& triangle : mesh.triangles)
     for (std::uint32_t& corner : triangle) corner = places.find(corner);
   std::erase_if(mesh.triangles, [&](const Triangle& triangle) { return !has_area(mesh, triangle); });
@@ -44,17 +50,17 @@ void drop_flat_triangles(Mesh& mesh) {
 
 /// The corners that belong to one fan around their vertex, named by the lowest.
 DisjointSets find_fans(const std::vector<Triangle>& triangles) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+  std::vector<Edge> edges(3 * triangles.size());
+  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(triangles.size()), [&](std::uint32_t t) {
     for (std::uint32_t i = 0; i < 3; ++i) {
       const std::uint32_t j = (i + 1) % 3;
       const std::uint32_t a = triangles[t][i];
       const std::uint32_t b = triangles[t][j];
-      edges.push_back(a < b ? Edge{a, b, 3 * t + i, 3 * t + j} : Edge{b, a, 3 * t + j, 3 * t + i});
+      edges[3 * t + i] = a < b ? Edge{a, b, 3 * t + i, 3 * t + j} : Edge{b, a, 3 * t + j, 3 * t + i};
     }
-  }
-  std::ranges::sort(edges, {}, [](const Edge& e) { return std::tuple(e.low, e.high, e.low_corner); });
+  });
+  const auto key = [](const Edge& e) { return std::tuple(e.low, e.high, e.low_corner); };
+  tbb::parallel_sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return key(a) < key(b); });
   DisjointSets fans(3 * triangles.size());
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high) ++end;
