@@ -229,9 +229,10 @@ Expected<DepthMap> DepthStage::sweep_twice(const SweepTask& task, const Inputs& 
   return depth_map_from_votes(*votes, task.planes);
 }
 
-Expected<DepthMap> DepthStage::sweep_slanted(const SweepTask& task, const Inputs& inputs) {
+Expected<DepthMap> DepthStage::sweep_slanted(const SweepTask& task, Inputs inputs) {
   if (form_ == SweepForm::kLanes && planes_in_lanes_.fits(task)) {
     QUORUM_ASSIGN(const auto votes, run_pass(task, inputs, task.ranges, sweep_->first, task.planes.refinement));
+    inputs = {};  // leaves their memory to the planes
     QUORUM_ASSIGN(const auto planes, planes_in_lanes_.run(task, votes));
     return depth_map_from_planes(planes, task);
   }
@@ -241,6 +242,7 @@ Expected<DepthMap> DepthStage::sweep_slanted(const SweepTask& task, const Inputs
   Band band = make_band(task.ranges);
   Pacer pacer(*commands_, batch_size_);
   QUORUM_TRY(run_band(task, inputs, task.ranges, sweep_->first, task.planes.refinement, 0, band, pacer));
+  inputs = {};
   swept.ranges = std::move(band.ranges);
   swept.votes = std::move(band.votes);
   QUORUM_ASSIGN(const auto planes, planes_.run(task, swept));
@@ -249,8 +251,8 @@ Expected<DepthMap> DepthStage::sweep_slanted(const SweepTask& task, const Inputs
 
 Expected<DepthMap> DepthStage::sweep(const SweepTask& task) {
   prepare_kernels(task);
-  const Inputs inputs = make_inputs(task);
-  return task.options.is_slanted() ? sweep_slanted(task, inputs) : sweep_twice(task, inputs);
+  Inputs inputs = make_inputs(task);
+  return task.options.is_slanted() ? sweep_slanted(task, std::move(inputs)) : sweep_twice(task, inputs);
 }
 
 Expected<DepthMap> DepthStage::run(const SweepTask& task) {

@@ -75,7 +75,7 @@ class DepthStage {
   /// Two passes on planes that face the camera.
   Expected<DepthMap> sweep_twice(const SweepTask& task, const Inputs& inputs);
   /// One pass, and tilted planes after it.
-  Expected<DepthMap> sweep_slanted(const SweepTask& task, const Inputs& inputs);
+  Expected<DepthMap> sweep_slanted(const SweepTask& task, Inputs inputs);
   Expected<Grid<PixelVote>> run_pass(const SweepTask& task, const Inputs& inputs, const Grid<PlaneRange>& ranges,
                                      const Pass& pass, int stride);
   [[nodiscard]] Band make_band(const Grid<PlaneRange>& ranges) const;

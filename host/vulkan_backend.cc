@@ -43,14 +43,14 @@ std::size_t VulkanBackend::max_blocks(std::uint64_t host_bytes) const {
 }
 
 std::uint64_t VulkanBackend::view_bytes(std::uint64_t pixels, int neighbors) const {
-  constexpr std::uint64_t kStaging = 16 << 20;
+  constexpr std::uint64_t kStaging = 32 << 20;
   constexpr std::uint64_t kNccValues = 64 << 20;
   // Of the host: votes, ranges, what the planes begin with, support windows, the planes, the maps.
   const std::uint64_t host = kStaging + (neighbors > 0 ? 116 : 44) * pixels;
   if (!shares_memory()) return host;
-  // Of the device: photographs (software Vulkan takes the four texels of a sample for each of their pixels), support
-  // windows, ranges, planes twice, and those that are tried.
-  const std::uint64_t photograph = device().info().kind == DeviceKind::kSoftware ? 16 : 4;
+  // Of the device: photographs (software Vulkan takes the four texels of a sample for each of their pixels; others have
+  // them twice, each for itself and all in one buffer), support windows, ranges, votes, and planes twice.
+  const std::uint64_t photograph = device().info().kind == DeviceKind::kSoftware ? 16 : 8;
   return host + kNccValues +
          (photograph * (1 + static_cast<std::uint64_t>(neighbors)) + (neighbors > 0 ? 100 : 24)) * pixels;
 }

@@ -131,6 +131,31 @@ TEST_F(BackendsParity, ADeviceWithMemoryOfItsOwnGivesEqualDepthMapsAndVolumes) {
   for (const std::string& message : apart.take_validation_messages()) ADD_FAILURE() << message;
 }
 
+TEST_F(BackendsParity, AViewIsOneSubmissionAndTheNextOneFindsMemoryAndPhotographs) {
+  const Device apart = Device::open(device().info(), {.validation = true, .force_staging = true}).value();
+  const std::unique_ptr<VulkanBackend> backend = VulkanBackend::create(apart, SweepForm::kGroups).value();
+  const SweepTask task = make_sphere_task(make_sphere_scene(4, 67, 45, true, 13), 1, {});
+  const auto cost_of_view = [&] {
+    const DeviceWork before = backend->device_work();
+    EXPECT_TRUE(backend->sweep_depth(task));
+    const DeviceWork after = backend->device_work();
+    return DeviceWork{after.uploaded_bytes - before.uploaded_bytes, after.downloaded_bytes - before.downloaded_bytes,
+                      after.submissions - before.submissions, after.dispatches - before.dispatches,
+                      after.allocations - before.allocations};
+  };
+  const DeviceWork first = cost_of_view();
+  const DeviceWork next = cost_of_view();
+  EXPECT_EQ(first.submissions, 1U) << "uploads, both passes and the download";
+  EXPECT_EQ(next.submissions, 1U);
+  EXPECT_GT(first.allocations, 0U);
+  EXPECT_EQ(next.allocations, 0U);
+  EXPECT_EQ(next.dispatches, first.dispatches);
+  EXPECT_LE(next.dispatches, 12U) << "windows, sweep a neighbor, votes, first planes, a round each";
+  const std::uint64_t photographs = (1 + task.neighbors.size()) * task.reference->pixels.size() * sizeof(Rgba);
+  EXPECT_EQ(first.uploaded_bytes - next.uploaded_bytes, photographs);
+  EXPECT_EQ(next.downloaded_bytes, sizeof(PixelPlane) * task.ranges.values.size()) << "planes, and nothing else";
+}
+
 TEST_F(BackendsParity, ViewsThatAreSweptAtOnceGiveEqualDepthMaps) {
   const Device apart = Device::open(device().info(), {.validation = true, .force_staging = true}).value();
   const std::unique_ptr<VulkanBackend> backend = VulkanBackend::create(apart, SweepForm::kGroups).value();
