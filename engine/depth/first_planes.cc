@@ -9,8 +9,8 @@
 
 namespace quorum {
 
-Grid<PlaneTrial> first_planes(const SweepTask& task, const Grid<PixelVote>& first_pass) {
-  if (task.outside.values.empty()) return fit_planes(first_pass, task.planes);
+Grid<PlaneTrial> first_planes(const SweepTask& task, const Grid<PixelVote>& first_pass, SimdLevel simd) {
+  if (task.outside.values.empty()) return fit_planes(first_pass, task.planes, simd);
   const auto outside_of = [&](int x, int y) -> const OutsidePlane& {
     return task.outside.at(std::min(x >> task.outside_halvings, task.outside.width - 1),
                            std::min(y >> task.outside_halvings, task.outside.height - 1));
@@ -24,7 +24,7 @@ Grid<PlaneTrial> first_planes(const SweepTask& task, const Grid<PixelVote>& firs
     for (int x = 0; x < inside.width; ++x)
       if (prefers_outside(x, y)) inside.at(x, y) = kNoVote;
   });
-  Grid<PlaneTrial> planes = fit_planes(inside, task.planes);
+  Grid<PlaneTrial> planes = fit_planes(inside, task.planes, simd);
   tbb::parallel_for(0, planes.height, [&](int y) {
     for (int x = 0; x < planes.width; ++x)
       if (prefers_outside(x, y)) planes.at(x, y) = {outside_of(x, y).inverse_depth, 0.0F, 0.0F, 0.0F, 0};

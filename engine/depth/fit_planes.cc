@@ -3,8 +3,12 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
 
 #include "engine/core/exact.h"
+#include "engine/core/simd.h"
 
 namespace quorum {
 namespace {
@@ -17,18 +21,6 @@ struct Moments {
   int n = 0;
   int x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   float w = 0.0F, xw = 0.0F, yw = 0.0F;
-
-  void add(int dx, int dy, float difference) {
-    ++n;
-    x += dx;
-    y += dy;
-    xx += dx * dx;
-    xy += dx * dy;
-    yy += dy * dy;
-    w += difference;
-    xw += static_cast<float>(dx) * difference;
-    yw += static_cast<float>(dy) * difference;
-  }
 
   /// Of a pixel whose own inverse depth is given.
   [[nodiscard]] PlaneTrial plane(float inverse_depth) const {
@@ -49,6 +41,67 @@ struct Moments {
   }
 };
 
+constexpr int kPixels = 64;  // of a row, side by side
+
+template <typename T>
+using FitLanes = std::array<T, kPixels>;
+
+/// The moments of pixels side by side, and the row that is added.
+struct MomentLanes {
+  FitLanes<float> here;                           ///< inverse depths of the pixels; 0 = none
+  std::array<float, kPixels + 2 * kReach> other;  ///< of the row, from kReach pixels before the first
+  FitLanes<std::int32_t> n, x, y, xx, xy, yy;
+  FitLanes<float> w, xw, yw;
+
+  void clear() {
+    for (auto* sums : {&n, &x, &y, &xx, &xy, &yy}) sums->fill(0);
+    for (auto* sums : {&w, &xw, &yw}) sums->fill(0.0F);
+  }
+  [[nodiscard]] Moments at(std::size_t i) const { return {n[i], x[i], y[i], xx[i], xy[i], yy[i], w[i], xw[i], yw[i]}; }
+};
+
+/// Adds a row, dy pixels below the pixels' own: of each pixel those at most kReach away that lie within the limit.
+[[gnu::always_inline]] inline void add_row(int dy, float limit, MomentLanes& lanes) {
+  for (int dx = -kReach; dx <= kReach; ++dx) {
+    for (int i = 0; i < kPixels; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const float other = lanes.other[static_cast<std::size_t>(i + dx + kReach)];
+      const float apart = other - lanes.here[k];
+      const bool adds = (other != 0.0F) & (apart >= -limit) & (apart <= limit);
+      const float difference = kept_if(adds, apart);
+      const std::int32_t one = static_cast<std::int32_t>(adds);
+      lanes.n[k] += one;
+      lanes.x[k] += dx * one;
+      lanes.y[k] += dy * one;
+      lanes.xx[k] += dx * dx * one;
+      lanes.xy[k] += dx * dy * one;
+      lanes.yy[k] += dy * dy * one;
+      lanes.w[k] += difference;
+      lanes.xw[k] += static_cast<float>(dx) * difference;
+      lanes.yw[k] += static_cast<float>(dy) * difference;
+    }
+  }
+}
+
+/// Copies a row from pixel x on, 0 beyond its ends.
+template <std::size_t kCount>
+void copy_row(const Grid<float>& grid, int x, int y, std::array<float, kCount>& to) {
+  to.fill(0.0F);
+  const int begin = std::max(x, 0);
+  const int end = std::min(x + static_cast<int>(kCount), grid.width);
+  if (begin < end) std::copy(grid.row(y) + begin, grid.row(y) + end, to.begin() + (begin - x));
+}
+
+/// Inverse depths of the votes' planes; 0 where there is none.
+Grid<float> inverse_depths_of(const Grid<PixelVote>& votes, const DepthPlanes& planes) {
+  Grid<float> result(votes.width, votes.height);
+  tbb::parallel_for(std::size_t{0}, votes.values.size(), [&](std::size_t pixel) {
+    const int plane = votes.values[pixel].plane;
+    if (plane >= 0) result.values[pixel] = planes.inverse_depth[static_cast<std::size_t>(plane)];
+  });
+  return result;
+}
+
 }  // namespace
 
 float fit_limit(const DepthPlanes& planes) {
@@ -56,25 +109,25 @@ float fit_limit(const DepthPlanes& planes) {
   return kSteps * planes.step();
 }
 
-Grid<PlaneTrial> fit_planes(const Grid<PixelVote>& votes, const DepthPlanes& planes) {
-  const auto inverse_depth = [&](int plane) { return planes.inverse_depth[static_cast<std::size_t>(plane)]; };
+Grid<PlaneTrial> fit_planes(const Grid<PixelVote>& votes, const DepthPlanes& planes, SimdLevel simd) {
   const float limit = fit_limit(planes);
+  const Grid<float> inverse_depth = inverse_depths_of(votes, planes);
+  const auto add = simd_form<add_row>(simd);
   Grid<PlaneTrial> fitted(votes.width, votes.height, PlaneTrial{});
   tbb::parallel_for(0, votes.height, [&](int y) {
-    for (int x = 0; x < votes.width; ++x) {
-      const int plane = votes.at(x, y).plane;
-      if (plane < 0) continue;
-      const float here = inverse_depth(plane);
-      Moments moments;
+    thread_local const auto lanes = std::make_unique<MomentLanes>();
+    for (int x = 0; x < votes.width; x += kPixels) {
+      copy_row(inverse_depth, x, y, lanes->here);
+      if (std::ranges::all_of(lanes->here, [](float here) { return here == 0.0F; })) continue;
+      lanes->clear();
       for (int dy = std::max(-kReach, -y); dy <= std::min(kReach, votes.height - 1 - y); ++dy) {
-        for (int dx = std::max(-kReach, -x); dx <= std::min(kReach, votes.width - 1 - x); ++dx) {
-          const int other = votes.at(x + dx, y + dy).plane;
-          if (other < 0) continue;
-          const float difference = inverse_depth(other) - here;
-          if (difference >= -limit && difference <= limit) moments.add(dx, dy, difference);
-        }
+        copy_row(inverse_depth, x - kReach, y + dy, lanes->other);
+        add(dy, limit, *lanes);
       }
-      fitted.at(x, y) = moments.plane(here);
+      for (int i = 0; i < std::min(kPixels, votes.width - x); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (lanes->here[k] != 0.0F) fitted.at(x + i, y) = lanes->at(k).plane(lanes->here[k]);
+      }
     }
   });
   return fitted;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/grid.h"
+#include "engine/core/simd.h"
 #include "engine/depth/depth_planes.h"
 
 namespace quorum {
@@ -14,6 +15,7 @@ float fit_limit(const DepthPlanes& planes);
 /// first pass of its own, by least squares; a plane without slopes where fewer than six do or all lie on a line.
 /// Nothing where the pixel has no vote. Float operations in a fixed order: the same bytes everywhere. Twin:
 /// shaders/first_planes.comp.
-Grid<PlaneTrial> fit_planes(const Grid<PixelVote>& votes, const DepthPlanes& planes);
+Grid<PlaneTrial> fit_planes(const Grid<PixelVote>& votes, const DepthPlanes& planes,
+                            SimdLevel simd = best_simd_level());
 
 }  // namespace quorum

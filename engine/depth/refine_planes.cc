@@ -171,7 +171,7 @@ Grid<PixelPlane> refine_planes(const SweepTask& task, const Grid<PixelVote>& fir
                         PlaneGrid(width, height),
                         Grid<float>(width, height),
                         Grid<float>(width, height)};
-  const Grid<PlaneTrial> fitted = first_planes(task, first_pass);
+  const Grid<PlaneTrial> fitted = first_planes(task, first_pass, cpu.simd);
   for_each_tile(refinement, cpu, [&](const Tile& tile, const TileSupports& supports) {
     const auto propose = [&](int x, int y, int count) -> const PlaneProposals& {
       return propose_first(fitted, refinement, x, y, count);
