@@ -69,13 +69,13 @@ const PlaneProposals& propose_planes(const PlaneMove& move, const PlaneGrid& las
   const int other_x = x + move.offset_x;
   const int other_y = y + move.offset_y;
   if (from_neighbor) {
-    work->other.inverse_depth.fill(0.0F);  // no plane beyond the border
     const int begin = std::max(0, -other_x);
     const int end = std::min(count, ranges.width - other_x);
     if (other_y < 0 || other_y >= ranges.height || begin >= end) {
       std::fill_n(work->proposals.may_take.begin(), count, 0);
       return work->proposals;
     }
+    if (begin > 0 || end < count) work->other.inverse_depth.fill(0.0F);  // no plane beyond the border
     work->other.copy(last, other_x, other_y, begin, end);
   }
   work->own.copy(best, x, y, 0, count);

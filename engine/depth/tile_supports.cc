@@ -15,10 +15,10 @@ namespace {
 }
 
 /// Packs one place of the windows of a row.
-[[gnu::always_inline]] inline void pack_row(const Rgba* pixel, const Rgba* center, const SupportWindow* support,
-                                            int count, int shift, std::uint64_t* samples) {
+[[gnu::always_inline]] inline void pack_row(const Rgba* pixel, const Rgba* center, const std::int32_t* most, int count,
+                                            int shift, std::uint64_t* samples) {
   for (int x = 0; x < count; ++x)
-    samples[x] = pack_sample(pixel[x], largest_difference(pixel[x], center[x]) <= support[x].max_difference, shift);
+    samples[x] = pack_sample(pixel[x], largest_difference(pixel[x], center[x]) <= most[x], shift);
 }
 
 }  // namespace
@@ -37,12 +37,15 @@ void TileSupports::pack(const SweepTask& task, const Grid<SupportWindow>& window
   // Windows that stick out of the image are never tried.
   const int x = std::max(tile.x, radius);
   const int count = std::min(tile.x_end, image.width - radius) - x;
+  most_.resize(static_cast<std::size_t>(std::max(count, 0)));
   for (int y = std::max(tile.y, radius); y < std::min(tile.y_end, image.height - radius); ++y) {
+    std::transform(windows.row(y) + x, windows.row(y) + x + most_.size(), most_.begin(),
+                   [](const SupportWindow& support) { return support.max_difference; });
     const Rgba* center = image.pixels.data() + std::ptrdiff_t{y} * image.stride() + x;
     for (int index = 0; index < window * window; ++index) {
       const Rgba* pixel = center + std::ptrdiff_t{index / window - radius} * image.stride() + index % window - radius;
       std::uint64_t* samples = samples_.data() + static_cast<std::size_t>(index) * stride_ + this->pixel(x, y);
-      pack(pixel, center, windows.row(y) + x, count, shift, samples);
+      pack(pixel, center, most_.data(), count, shift, samples);
     }
   }
 }

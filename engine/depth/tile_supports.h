@@ -29,6 +29,7 @@ class TileSupports {
   Tile tile_;
   std::size_t stride_ = 0;  ///< samples of a place
   std::vector<std::uint64_t> samples_;
+  std::vector<std::int32_t> most_;  ///< largest differences of a row's supports
 };
 
 }  // namespace quorum
