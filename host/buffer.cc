@@ -35,6 +35,8 @@ Allocation allocate_storage(Device::State& device, std::uint64_t capacity) {
     return make();
   } catch (const vk::OutOfDeviceMemoryError&) {
     if (!device.pool.clear()) throw;
+  } catch (const vk::TooManyObjectsError&) {
+    if (!device.pool.clear()) throw;
   }
   return make();
 }

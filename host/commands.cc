@@ -171,6 +171,8 @@ Expected<void> Commands::State::upload(const Buffer& to, std::span<const std::by
 Expected<void> Commands::State::download(const Buffer& from, std::span<std::byte> bytes) {
   QUORUM_CHECK_LE(bytes.size(), from.size());
   device->work.downloaded_bytes += bytes.size();
+  if (bytes.empty()) return submit();
+  double seconds = 0.0;
   for (std::uint64_t offset = 0; !bytes.empty();) {
     keep([&] { return downloads.open(); });
     const auto piece = bytes.first(std::min(bytes.size(), kStagingBytes));
@@ -179,11 +181,13 @@ Expected<void> Commands::State::download(const Buffer& from, std::span<std::byte
                           vk::BufferCopy{.srcOffset = offset, .size = piece.size()});
     });
     QUORUM_TRY(submit());
+    seconds += last_submission_seconds;
     downloads.get(piece);
     bytes = bytes.subspan(piece.size());
     offset += piece.size();
   }
-  return submit();
+  last_submission_seconds = seconds;
+  return {};
 }
 
 namespace {

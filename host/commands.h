@@ -116,7 +116,8 @@ class Commands {
   /// Seconds per region name over all submissions, in order of first use. Empty on a queue without timestamps.
   [[nodiscard]] const std::vector<RegionTiming>& timings() const;
 
-  /// Seconds that the device took for the last submission, and for those that uploads made before it; from submit to
+  /// Seconds that the device took for the last submission, and for those that an upload or a download made with
+  /// it; from submit to
   /// its end on a queue without timestamps.
   [[nodiscard]] double last_submission_seconds() const;
 

@@ -197,6 +197,7 @@ Expected<void> DepthStage::run_band(const SweepTask& task, const Inputs& inputs,
   const std::int64_t max_items = kMaxGroups * (sweep_->form == SweepForm::kLanes ? kLanesGroupSize : 1);
   SweepBatches batches(ranges, task.planes.inverse_depth, pass.block, stride);
   while (true) {
+    QUORUM_TRY(pacer.make_room(item_windows));
     const std::int64_t windows = std::min(pacer.room(), ncc_values(*info_));
     SweepBatch batch = batches.next(std::clamp<std::int64_t>(windows / item_windows, 1, max_items), kMaxPlanes);
     if (batch.items.empty()) return {};
@@ -236,12 +237,22 @@ Expected<DepthMap> DepthStage::sweep_slanted(const SweepTask& task, Inputs input
     QUORUM_ASSIGN(const auto planes, planes_in_lanes_.run(task, votes));
     return depth_map_from_planes(planes, task);
   }
-  SweptView swept;
-  swept.reference = pixels_of(task.reference);
-  for (const auto& image : task.neighbors) swept.neighbors.push_back(pixels_of(image));
+  if (!planes_.fits(task)) {  // on the CPU, with the same bytes
+    QUORUM_ASSIGN(const auto votes, run_pass(task, inputs, task.ranges, sweep_->first, task.planes.refinement));
+    return depth_map_from_planes(refine_planes(task, votes, {}), task);
+  }
   Band band = make_band(task.ranges);
   Pacer pacer(*commands_, batch_size_);
   QUORUM_TRY(run_band(task, inputs, task.ranges, sweep_->first, task.planes.refinement, 0, band, pacer));
+  QUORUM_TRY(pacer.submit());
+  SweptView swept;
+  if (sweep_->form == SweepForm::kGroups) {
+    swept.reference = inputs.reference;
+    swept.neighbors = std::move(inputs.neighbors);
+  } else {
+    swept.reference = pixels_of(task.reference);
+    for (const auto& image : task.neighbors) swept.neighbors.push_back(pixels_of(image));
+  }
   inputs = {};
   swept.ranges = std::move(band.ranges);
   swept.votes = std::move(band.votes);

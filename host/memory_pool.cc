@@ -26,7 +26,7 @@ std::optional<Allocation> MemoryPool::take(std::uint64_t bytes) {
 void MemoryPool::give(Allocation allocation) {
   const std::scoped_lock lock(mutex_);
   const std::uint64_t bytes = allocation.bytes;
-  if (bytes > limit_) return;
+  if (bytes == 0 || bytes > limit_) return;
   while (held_ > limit_ - bytes) {
     held_ -= free_.begin()->first;
     free_.erase(free_.begin());

@@ -17,6 +17,9 @@ class Pacer {
   /// Work items that still fit the submission; at least 1.
   [[nodiscard]] std::int64_t room() const { return std::max<std::int64_t>(1, size_->items() - recorded_); }
 
+  /// Submits what is recorded if it leaves too little room for so many items.
+  Expected<void> make_room(std::int64_t items) { return recorded_ > 0 && room() < items ? submit() : Expected<void>(); }
+
   /// Work was recorded; submits if it is enough. Fails as Commands::submit does.
   Expected<void> recorded(std::int64_t items) {
     recorded_ += items;

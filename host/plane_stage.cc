@@ -54,8 +54,15 @@ PlaneStage::PlaneStage(Commands& commands)
     : commands_(&commands),
       first_planes_(commands.kernel("first_planes")),
       support_windows_(commands, "support_windows"),
-      refine_planes_(commands, "refine_planes"),
-      batch_size_(kStartWindows, kLeastWindows, kMostWindows) {}
+      refine_planes_(commands, "refine_planes") {}
+
+bool PlaneStage::fits(const SweepTask& task) const {
+  const DeviceInfo& info = commands_->device().info();
+  std::uint64_t images = task.reference->pixels.size() * sizeof(Rgba);
+  for (const auto& image : task.neighbors) images += image->pixels.size() * sizeof(Rgba);
+  const std::uint64_t largest = std::max<std::uint64_t>(images, sizeof(PixelPlane) * task.ranges.values.size());
+  return largest <= std::min(info.max_storage_buffer_range, info.max_allocation);
+}
 
 PlaneStage::Buffers PlaneStage::prepare(const SweepTask& task, const SweptView& swept) {
   const int width = task.ranges.width;
@@ -99,6 +106,7 @@ Expected<void> PlaneStage::run_round(const SweepTask& task, Buffers& buffers, co
   commands_->region("refine_planes");
   for (std::int64_t begin = 0; begin < height;) {
     const std::int64_t row_windows = width * move_count * task.neighbor_count();
+    QUORUM_TRY(pacer.make_room(kGroupSide * row_windows));
     const std::int64_t groups = std::max<std::int64_t>(1, pacer.room() / row_windows / kGroupSide);
     const std::int64_t end = std::min(height, begin + groups * kGroupSide);
     for (std::int64_t move = 0; move < move_count; move += some_moves) {
@@ -127,7 +135,9 @@ Expected<void> PlaneStage::run_round(const SweepTask& task, Buffers& buffers, co
 
 Expected<Grid<PixelPlane>> PlaneStage::run(const SweepTask& task, const SweptView& swept) {
   Buffers buffers = prepare(task, swept);
-  Pacer pacer(*commands_, batch_size_);
+  BatchSize& size =
+      batch_sizes_.try_emplace(task.options.window, kStartWindows, kLeastWindows, kMostWindows).first->second;
+  Pacer pacer(*commands_, size);
   QUORUM_TRY(run_round(task, buffers, {PlaneMove{}}, true, pacer));
   for (const std::vector<PlaneMove>& round : plane_rounds(task.planes, task.options.window))
     QUORUM_TRY(run_round(task, buffers, round, false, pacer));

@@ -2,6 +2,7 @@
 // for software Vulkan: host/plane_lanes_stage.h.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "engine/depth/plane_moves.h"
@@ -28,6 +29,9 @@ class PlaneStage {
   /// The commands keep a failure to make kernels.
   explicit PlaneStage(Commands& commands);
 
+  /// True if kernels can see all that they need of a view.
+  [[nodiscard]] bool fits(const SweepTask& task) const;
+
   /// The best plane per pixel, after the sweep's first pass. Fails (kDevice, kMemory) if the device does.
   Expected<Grid<PixelPlane>> run(const SweepTask& task, const SweptView& swept);
 
@@ -50,7 +54,7 @@ class PlaneStage {
   Kernel first_planes_;
   WindowKernels support_windows_;
   WindowKernels refine_planes_;
-  BatchSize batch_size_;  ///< windows per submission
+  std::map<int, BatchSize> batch_sizes_;  ///< windows per submission, by their side
 };
 
 }  // namespace quorum

@@ -19,7 +19,8 @@ namespace quorum {
 /// A share of the device's memory for what stays there; 0 on a device that reads the host's memory, where a copy gains
 /// nothing.
 inline std::uint64_t resident_bytes(const Device& device, std::uint64_t one_in) {
-  return device.maps_buffers() ? 0 : device.info().largest_device_heap / one_in;
+  const bool shares_memory = device.maps_buffers() || device.info().kind == DeviceKind::kIntegrated;
+  return shares_memory ? 0 : device.info().largest_device_heap / one_in;
 }
 
 /// Keeps objects as long as the host has them too; those used least recently are dropped first.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -27,18 +28,26 @@ struct ViewWorker {
 
 class ViewWorkers {
  public:
-  ViewWorkers(const Device& device, std::optional<SweepForm> form) : device_(device), form_(form) {}
+  ViewWorkers(const Device& device, std::optional<SweepForm> form) : device_(device), form_(form), most_(count()) {}
 
   /// One where the device reads the host's memory, and several where values go there and back.
   [[nodiscard]] std::size_t count() const { return device_.maps_buffers() ? 1 : 3; }
 
-  /// use(worker), with a worker that nobody else has; waits while all are taken. Fails (kDevice, kMemory) if another
-  /// one can't be made, and as use does.
+  /// use(worker), with a worker that nobody else has; waits while all are taken. Where memory does not suffice it is
+  /// tried once more when nobody else works, and from then on one works at a time. Fails (kDevice, kMemory) if another
+  /// worker can't be made, and as use does.
   template <typename Use>
   auto with(const Use& use) -> decltype(use(std::declval<ViewWorker&>())) {
     QUORUM_ASSIGN(ViewWorker* const worker, take());
+    const std::unique_ptr<ViewWorker, std::function<void(ViewWorker*)>> giver(worker,
+                                                                              [this](ViewWorker* w) { give(w); });
     auto result = use(*worker);
-    give(worker);
+    if (result || result.error().kind != ErrorKind::kMemory || count() == 1) return result;
+    begin_waiting();
+    const std::scoped_lock alone(alone_mutex_);
+    wait_until_alone();
+    result = use(*worker);
+    stop_waiting();
     return result;
   }
 
@@ -51,6 +60,11 @@ class ViewWorkers {
  private:
   Expected<ViewWorker*> take();
   void give(ViewWorker* worker);
+  /// One works at a time from now on, and this one waits for it.
+  void begin_waiting();
+  /// Waits until the other workers are idle or wait, too, and takes from all what they keep on the device.
+  void wait_until_alone();
+  void stop_waiting();
 
   Device device_;
   std::optional<SweepForm> form_;
@@ -58,6 +72,11 @@ class ViewWorkers {
   std::condition_variable given_;
   std::vector<std::unique_ptr<ViewWorker>> all_;
   std::vector<ViewWorker*> idle_;
+  std::size_t most_;                        ///< that work at once
+  std::size_t waiting_ = 0;                 ///< to be alone
+  std::vector<RegionTiming> lost_timings_;  ///< of workers that are gone
+
+  std::mutex alone_mutex_;  ///< held by the one that works alone
 };
 
 }  // namespace quorum

@@ -40,9 +40,10 @@ float max_plane_tilt(const Camera& camera);
       static_cast<float>(move.offset_x) * from.slope_x + static_cast<float>(move.offset_y) * from.slope_y;
   const PlaneTrial trial{(from.inverse_depth - ahead) + move.inverse_depth, from.slope_x + move.slope_x,
                          from.slope_y + move.slope_y, 0.0F, 0};
-  const bool is_near = (std::abs(trial.inverse_depth - best.inverse_depth) < move.near_depth) &
-                       (std::abs(trial.slope_x - best.slope_x) < move.near_slope) &
-                       (std::abs(trial.slope_y - best.slope_y) < move.near_slope);
+  const float apart = std::abs(trial.inverse_depth - best.inverse_depth);
+  const float apart_x = std::abs(trial.slope_x - best.slope_x);
+  const float apart_y = std::abs(trial.slope_y - best.slope_y);
+  const bool is_near = (apart < move.near_depth) & (apart_x < move.near_slope) & (apart_y < move.near_slope);
   const bool unchanged = from_neighbor ? from.taken_by == 0 : (move.undoes != 0) & (from.taken_by == move.undoes);
   const bool is_none =
       (from.inverse_depth == 0.0F) | unchanged | (from_neighbor & (best.inverse_depth != 0.0F) & is_near);

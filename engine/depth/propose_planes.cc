@@ -54,8 +54,8 @@ template <bool kFromNeighbor>
     work.proposals.inverse_depth[i] = trial.inverse_depth;
     work.proposals.slope_x[i] = trial.slope_x;
     work.proposals.slope_y[i] = trial.slope_y;
-    work.proposals.may_take[i] = static_cast<std::int32_t>(
-        (trial.inverse_depth != 0.0F) & may_take(trial, {work.farthest[i], work.nearest[i]}, max_tilt));
+    const bool takes = may_take(trial, {work.farthest[i], work.nearest[i]}, max_tilt);
+    work.proposals.may_take[i] = static_cast<std::int32_t>((trial.inverse_depth != 0.0F) & takes);
   }
 }
 

@@ -27,7 +27,6 @@ struct Fusion {
   const std::vector<int>& views;
   const VoxelGrid& grid;
   ImageStore& images;
-  ViewsInFlight in_flight;
 
   [[nodiscard]] bool fills_holes() const { return run.options.fusion.fill_holes; }
 };
@@ -81,44 +80,57 @@ Expected<LoadedView> load_view(const Fusion& fusion, int index, bool with_image)
   return loaded;
 }
 
-/// Calls use(view, map, image) for the views, in order.
+/// Calls use(view, map, image) for the views, in order. least: what this takes at most with one view in flight.
 template <typename Use>
-Expected<void> for_each_map(const Fusion& fusion, const std::vector<int>& views, bool with_image, const Use& use) {
+Expected<void> for_each_map(const Fusion& fusion, const std::vector<int>& views, bool with_image,
+                            const MemoryEstimate& least, const Use& use) {
+  ViewsInFlight in_flight = views_in_flight(fusion.run, least, merge_in_flight_memory(fusion.run.scene, fusion.views));
+  in_flight.workers = 1;  // a volume takes one view at a time
   const auto read = [&](int view) { return load_view(fusion, view, with_image); };
   const auto work = [&](int view, const LoadedView& loaded) {
     return use(view, FusionView{loaded.map, loaded.image, fusion.run.view(view).camera,
                                 loaded.normals.empty() ? nullptr : &loaded.normals});
   };
-  return for_each_view(fusion.run, views, {.read = "load_depth_maps"}, read, work, fusion.in_flight);
+  return for_each_view(fusion.run, views, {.read = "load_depth_maps"}, read, work, in_flight);
 }
 
 /// Whether a view's share of the work is this run's.
 bool is_own(const Run& run, int view) { return !run.options.shard || run.options.shard->has(view); }
 
 /// The blocks near the surface of each view. If holes are filled, each view marks what it looks through, too.
-Expected<CollectedBlocks> collect_blocks(const Fusion& fusion) {
+Expected<CollectedBlocks> collect_blocks(const Fusion& fusion, const MemoryEstimate& memory) {
   const StageTimer timer(fusion.run.report, "collect_blocks");
   fusion.run.progress.stage("finding voxel blocks", static_cast<int>(fusion.views.size()));
   CollectedBlocks collected;
   collected.of_view.resize(fusion.run.scene.views.size());
-  QUORUM_TRY(for_each_map(fusion, fusion.views, false, [&](int index, const FusionView& view) -> Expected<void> {
-    QUORUM_ASSIGN(Blocks blocks, fusion.run.backend.collect_blocks(view));
-    Blocks merged;
-    merged.reserve(collected.all.size() + blocks.size());
-    std::ranges::set_union(collected.all, blocks, std::back_inserter(merged));
-    collected.all = std::move(merged);
-    fusion.run.report.block_views += blocks.size();
-    collected.of_view[static_cast<std::size_t>(index)] = std::move(blocks);
-    if (!fusion.fills_holes() || !is_own(fusion.run, index)) return {};
-    collected.views_with_background += has_background(view.map.depth) ? 1 : 0;
-    return fusion.run.backend.carve_blocks(view);
-  }));
+  QUORUM_TRY(
+      for_each_map(fusion, fusion.views, false, memory, [&](int index, const FusionView& view) -> Expected<void> {
+        QUORUM_ASSIGN(Blocks blocks, fusion.run.backend.collect_blocks(view));
+        Blocks merged;
+        merged.reserve(collected.all.size() + blocks.size());
+        std::ranges::set_union(collected.all, blocks, std::back_inserter(merged));
+        collected.all = std::move(merged);
+        fusion.run.report.block_views += blocks.size();
+        collected.of_view[static_cast<std::size_t>(index)] = std::move(blocks);
+        if (!fusion.fills_holes() || !is_own(fusion.run, index)) return {};
+        collected.views_with_background += has_background(view.map.depth) ? 1 : 0;
+        return fusion.run.backend.carve_blocks(view);
+      }));
   fusion.run.report.blocks = collected.all.size();
   return collected;
 }
 
+/// What a slab of so many blocks takes, with one view in flight.
+MemoryEstimate slab_memory(const Fusion& fusion, std::size_t blocks) {
+  MemoryEstimate memory = merge_memory(fusion.run.scene, fusion.views, fusion.grid, fusion.run.backend);
+  memory.items.push_back({"BlockPool, MarchingCubes: blocks of the slab",
+                          blocks * (kVoxelBytes + block_surface_bytes(fusion.run.options.fusion))});
+  return memory;
+}
+
 /// Merges the views that see a slab into it, and reads it back.
 Expected<BlockPool> fill_slab(const Fusion& fusion, const CollectedBlocks& collected, const Slab& slab) {
+  const MemoryEstimate memory = slab_memory(fusion, slab.blocks.size());
   Backend& backend = fusion.run.backend;
   {
     const StageTimer timer(fusion.run.report, "integrate");
@@ -131,7 +143,7 @@ Expected<BlockPool> fill_slab(const Fusion& fusion, const CollectedBlocks& colle
     }
     fusion.run.progress.stage("merging depth maps", static_cast<int>(views.size()));
     QUORUM_TRY(backend.allocate_blocks(slab.blocks));
-    QUORUM_TRY(for_each_map(fusion, views, true, [&](int index, const FusionView& view) {
+    QUORUM_TRY(for_each_map(fusion, views, true, memory, [&](int index, const FusionView& view) {
       return backend.integrate(view, seen[static_cast<std::size_t>(index)]);
     }));
   }
@@ -142,9 +154,7 @@ Expected<BlockPool> fill_slab(const Fusion& fusion, const CollectedBlocks& colle
 /// The largest slab from block `first` on, before block `end`, that the budget holds now.
 Expected<Slab> next_slab(const Fusion& fusion, const Blocks& blocks, std::size_t first, std::size_t end) {
   Run& run = fusion.run;
-  MemoryEstimate view = merge_memory(run.scene, fusion.views, fusion.grid, run.backend);
-  const std::uint64_t more = fusion.in_flight.count - 1;
-  view.items.push_back({"views in flight", more * merge_in_flight_memory(run.scene, fusion.views).total()});
+  const MemoryEstimate view = merge_memory(run.scene, fusion.views, fusion.grid, run.backend);
   const std::uint64_t block_bytes = kVoxelBytes + block_surface_bytes(run.options.fusion);
   const auto voxel_room = [&](std::uint64_t room) { return room / block_bytes * kVoxelBytes; };
   const auto with_blocks = [&](std::uint64_t bytes) {
@@ -214,17 +224,14 @@ Expected<MeasuredVolume> measure_volume(Run& run, const std::vector<int>& views)
   run.report.slabs = 0;
   // A slab takes each photograph once, and the memory is better spent on large slabs.
   ImageStore images(run.scene, 0, run.options.mask_below);
-  ViewsInFlight in_flight =
-      views_in_flight(run, merge_memory(run.scene, views, grid, run.backend), merge_in_flight_memory(run.scene, views));
-  in_flight.workers = 1;  // a volume takes one view at a time
-  const Fusion fusion{run, views, grid, images, in_flight};
+  const Fusion fusion{run, views, grid, images};
 
   // Bits of empty voxels are there twice while they are read back, and four times while holes are filled.
   MemoryEstimate memory = merge_memory(run.scene, views, grid, run.backend);
   std::ranges::copy(empty_space_memory(grid, run.options.fusion, 4).items, std::back_inserter(memory.items));
   QUORUM_TRY(run.require(memory, "finding voxel blocks"));
   QUORUM_TRY(run.backend.begin_volume(grid, run.options.fusion));
-  QUORUM_ASSIGN(const CollectedBlocks collected, collect_blocks(fusion));
+  QUORUM_ASSIGN(const CollectedBlocks collected, collect_blocks(fusion, memory));
   MeasuredVolume volume;
   volume.views_with_background = collected.views_with_background;
   if (fusion.fills_holes()) {

@@ -87,7 +87,10 @@ Expected<void> for_each_view(Run& run, const std::vector<int>& views, const View
       return std::unexpected(stopped());
     }
     auto input = next_input();
-    if (!input) return std::unexpected(input.error());
+    if (!input) {
+      while (!working.empty()) QUORUM_TRY(take_oldest());
+      return std::unexpected(input.error());
+    }
     if (in_flight.workers > 1) {
       if (working.size() == in_flight.workers) QUORUM_TRY(take_oldest());
       working.emplace_back(

@@ -79,7 +79,8 @@ struct ConfirmLanes {
   for (int i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const SeenPoint point = see_from(warp, static_cast<float>(x + i), static_cast<float>(y), lanes.depth[k]);
-    const bool inside = (lanes.depth[k] > 0.0F) & is_in_a_cell(point, width, height);
+    const bool in_cell = is_in_a_cell(point, width, height);
+    const bool inside = (lanes.depth[k] > 0.0F) & in_cell;
     lanes.u[k] = kept_if(inside, point.u);
     lanes.v[k] = kept_if(inside, point.v);
     lanes.z[k] = kept_if(inside, point.z);
@@ -101,8 +102,11 @@ struct ConfirmLanes {
     const float d3 = lanes.corner[3][k];
     // Depth of the other view's surface at (u, v): interpolated in a cell without a step, else that of the nearest
     // pixel.
-    const bool whole = joined(d0, d1, max_step, 1.0F) & joined(d0, d2, max_step, 1.0F) &
-                       joined(d1, d3, max_step, 1.0F) & joined(d2, d3, max_step, 1.0F);
+    const bool upper = joined(d0, d1, max_step, 1.0F);
+    const bool left = joined(d0, d2, max_step, 1.0F);
+    const bool right = joined(d1, d3, max_step, 1.0F);
+    const bool lower = joined(d2, d3, max_step, 1.0F);
+    const bool whole = upper & left & right & lower;
     const float nearest = fy < 0.5F ? (fx < 0.5F ? d0 : d1) : (fx < 0.5F ? d2 : d3);
     const float top = d0 + fx * (d1 - d0);
     const float bottom = d2 + fx * (d3 - d2);

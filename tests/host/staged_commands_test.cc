@@ -67,6 +67,7 @@ TEST_F(StagedCommands, UploadsAndADownloadShareTheSubmissionOfADispatch) {
   EXPECT_EQ(work().dispatches, 3U);
   EXPECT_EQ(work().uploaded_bytes, 1600U);
   EXPECT_EQ(work().downloaded_bytes, 400U);
+  EXPECT_GT(commands().last_submission_seconds(), 0.0);
 }
 
 TEST_F(StagedCommands, ValuesBeyondTheStagingBufferArriveWhole) {
