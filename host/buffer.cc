@@ -43,11 +43,7 @@ Allocation allocate_storage(Device::State& device, std::uint64_t capacity) {
 
 Expected<void> make_staging(Device::State& device) {
   if (*device.staging.buffer) return {};
-  return guarded("allocating the staging buffer", [&] {
-    const vk::MemoryPropertyFlags mapped = Flag::eHostVisible | Flag::eHostCoherent;
-    device.staging =
-        device.allocate(kStagingBytes, Usage::eTransferSrc | Usage::eTransferDst, {mapped | Flag::eHostCached, mapped});
-  });
+  return guarded("allocating the staging buffer", [&] { device.staging = device.allocate_staging(); });
 }
 
 void copy(std::span<const std::byte> values, std::byte* mapped) { std::memcpy(mapped, values.data(), values.size()); }

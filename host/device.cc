@@ -132,6 +132,13 @@ Allocation Device::State::allocate(std::uint64_t size, vk::BufferUsageFlags usag
   return made;
 }
 
+Allocation Device::State::allocate_staging() const {
+  using Flag = vk::MemoryPropertyFlagBits;
+  using Usage = vk::BufferUsageFlagBits;
+  const vk::MemoryPropertyFlags mapped = Flag::eHostVisible | Flag::eHostCoherent;
+  return allocate(kStagingBytes, Usage::eTransferSrc | Usage::eTransferDst, {mapped | Flag::eHostCached, mapped});
+}
+
 Recorder Device::State::make_recorder() const {
   Recorder made;
   made.pool = {device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eTransient,

@@ -22,13 +22,7 @@ void copy_bytes(const std::byte* from, std::byte* to, std::size_t size) {
 
 Expected<void> Staging::open() {
   if (*allocation_.buffer) return {};
-  return guarded("allocating a staging buffer", [&] {
-    using Flag = vk::MemoryPropertyFlagBits;
-    using Usage = vk::BufferUsageFlagBits;
-    const vk::MemoryPropertyFlags mapped = Flag::eHostVisible | Flag::eHostCoherent;
-    allocation_ = device_->allocate(kStagingBytes, Usage::eTransferSrc | Usage::eTransferDst,
-                                    {mapped | Flag::eHostCached, mapped});
-  });
+  return guarded("allocating a staging buffer", [&] { allocation_ = device_->allocate_staging(); });
 }
 
 std::uint64_t Staging::put(std::span<const std::byte> bytes) {

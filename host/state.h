@@ -84,6 +84,9 @@ struct Device::State {
   Allocation allocate(std::uint64_t size, vk::BufferUsageFlags usage,
                       std::initializer_list<vk::MemoryPropertyFlags> wishes) const;
 
+  /// A mapped buffer of kStagingBytes, for copies to and from buffers that are not. Throws vk::SystemError.
+  [[nodiscard]] Allocation allocate_staging() const;
+
   /// Throws vk::SystemError.
   [[nodiscard]] Recorder make_recorder() const;
 
