@@ -22,11 +22,13 @@ struct AtOnce {
   std::atomic<int> now = 0;
   std::atomic<int> most = 0;
 
-  void work() {
+  /// Works until so many have worked at once, on however slow a machine.
+  void work(int wanted) {
     const int count = ++now;
     for (int before = most; before < count && !most.compare_exchange_weak(before, count);) {
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    for (int wait = 0; most < wanted && wait < 20'000; ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     --now;
   }
 };
@@ -38,7 +40,7 @@ TEST_F(ViewWorkersTest, NoMoreWorkAtOnceThanThereAreWorkers) {
   for (int i = 0; i < 8; ++i)
     threads.emplace_back([&] {
       const auto done = workers.with([&](ViewWorker&) -> Expected<int> {
-        at_once.work();
+        at_once.work(static_cast<int>(workers.count()));
         return 1;
       });
       EXPECT_TRUE(done);
@@ -59,11 +61,11 @@ TEST_F(ViewWorkersTest, WhereMemoryDoesNotSufficeEachIsTriedOnceMoreAlone) {
       int calls = 0;
       const auto done = workers.with([&](ViewWorker&) -> Expected<int> {
         if (++calls == 1) {
-          first.work();
+          first.work(2);
           return failure(ErrorKind::kMemory, "full");
         }
         EXPECT_EQ(first.now, 0);
-        again.work();
+        again.work(1);
         return calls;
       });
       succeeded += done && *done == 2 ? 1 : 0;
